@@ -1,0 +1,9 @@
+# sheer_version(TARGET): the generated header version.h with the version and the commit, renewed at every build.
+function(sheer_version target)
+  set(output ${CMAKE_BINARY_DIR}/generated/version.h)
+  add_custom_target(sheer_version_header
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DVERSION=${PROJECT_VERSION} -DROOT=${CMAKE_SOURCE_DIR}
+            -P ${CMAKE_SOURCE_DIR}/cmake/write_version.cmake
+    BYPRODUCTS ${output})
+  add_dependencies(${target} sheer_version_header)
+endfunction()

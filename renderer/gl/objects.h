@@ -1,0 +1,112 @@
+#pragma once
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "renderer/gl/functions.h"
+
+namespace sheer::gl {
+
+/// A GL object that is deleted with its owner. Move-only, labelled for debug output; must die before its context.
+template <typename Kind>
+class Object {
+ public:
+    Object() = default;
+    Object(const Functions& gl, GLuint id, std::string_view label) : m_gl(&gl), m_id(id) {
+        gl.ObjectLabel(Kind::identifier, id, static_cast<GLsizei>(label.size()), label.data());
+    }
+    Object(Object&& other) noexcept : m_gl(other.m_gl), m_id(std::exchange(other.m_id, 0)) {}
+    Object& operator=(Object&& other) noexcept {
+        std::swap(m_gl, other.m_gl);
+        std::swap(m_id, other.m_id);
+        return *this;
+    }
+    ~Object() {
+        if (m_id != 0) Kind::destroy(*m_gl, m_id);
+    }
+
+    GLuint id() const { return m_id; }
+    explicit operator bool() const { return m_id != 0; }
+
+ private:
+    const Functions* m_gl = nullptr;
+    GLuint m_id = 0;
+};
+
+struct BufferKind {
+    static constexpr GLenum identifier = GL_BUFFER;
+    static void destroy(const Functions& gl, GLuint id) { gl.DeleteBuffers(1, &id); }
+};
+struct TextureKind {
+    static constexpr GLenum identifier = GL_TEXTURE;
+    static void destroy(const Functions& gl, GLuint id) { gl.DeleteTextures(1, &id); }
+};
+struct FramebufferKind {
+    static constexpr GLenum identifier = GL_FRAMEBUFFER;
+    static void destroy(const Functions& gl, GLuint id) { gl.DeleteFramebuffers(1, &id); }
+};
+struct VertexArrayKind {
+    static constexpr GLenum identifier = GL_VERTEX_ARRAY;
+    static void destroy(const Functions& gl, GLuint id) { gl.DeleteVertexArrays(1, &id); }
+};
+struct QueryKind {
+    static constexpr GLenum identifier = GL_QUERY;
+    static void destroy(const Functions& gl, GLuint id) { gl.DeleteQueries(1, &id); }
+};
+struct ProgramKind {
+    static constexpr GLenum identifier = GL_PROGRAM;
+    static void destroy(const Functions& gl, GLuint id) { gl.DeleteProgram(id); }
+};
+
+using Buffer = Object<BufferKind>;
+using Texture = Object<TextureKind>;
+using Framebuffer = Object<FramebufferKind>;
+using VertexArray = Object<VertexArrayKind>;
+using Query = Object<QueryKind>;
+
+/// An immutable buffer of `size_bytes`; `data` may be null. `flags` as glNamedBufferStorage.
+Buffer make_buffer(const Functions& gl, std::string_view label, GLsizeiptr size_bytes, const void* data,
+                   GLbitfield flags = 0);
+
+/// An immutable 2D texture with nearest filtering and clamped edges; change both with TextureParameteri.
+Texture make_texture_2d(const Functions& gl, std::string_view label, GLenum internal_format, int width_px,
+                        int height_px, int levels = 1);
+
+/// A framebuffer with the given colour textures (0..n-1) and depth texture (0 for none).
+/// Throws RenderError naming `label` if it is not complete.
+Framebuffer make_framebuffer(const Functions& gl, std::string_view label, std::span<const GLuint> colors, GLuint depth);
+
+VertexArray make_vertex_array(const Functions& gl, std::string_view label);
+Query make_query(const Functions& gl, std::string_view label, GLenum target);
+
+/// A linked program. Throws RenderError with the driver's log, naming `label` and the stage, if it does not build.
+class Program {
+ public:
+    Program() = default;
+    Program(const Functions& gl, std::string_view label, std::string_view vertex_source,
+            std::string_view fragment_source);
+
+    GLuint id() const { return m_object.id(); }
+    void use() const;
+
+    /// Sets a uniform by name; one that the compiler removed is passed over.
+    void set(const char* name, int value) const;
+    void set(const char* name, unsigned value) const;
+    void set(const char* name, float value) const;
+    void set(const char* name, const glm::vec2& value) const;
+    void set(const char* name, const glm::vec3& value) const;
+    void set(const char* name, const glm::vec4& value) const;
+    void set(const char* name, const glm::mat4& value) const;
+
+ private:
+    const Functions* m_gl = nullptr;
+    Object<ProgramKind> m_object;
+};
+
+/// The text of a file below shaders/. Throws std::out_of_range naming the path if there is none.
+std::string_view shader_file(std::string_view path);
+
+}  // namespace sheer::gl

@@ -1,0 +1,58 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "renderer/compare.h"
+
+namespace sheer {
+
+/// Takes the encoded pictures of a report.
+class BlobSink {
+ public:
+    virtual ~BlobSink() = default;
+    /// Keeps `bytes` and returns the URL that the report gives for them. `name` is unique in the report.
+    virtual std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
+                            const std::string& media_type) = 0;
+};
+
+/// Pictures as files with readable names below a folder: `sheer compare --out`.
+class FolderSink : public BlobSink {
+ public:
+    explicit FolderSink(std::filesystem::path folder);
+    std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
+                    const std::string& media_type) override;
+
+ private:
+    std::filesystem::path m_folder;
+};
+
+/// Pictures as files named by their SHA-256, with the URL that the service serves them at.
+class ContentSink : public BlobSink {
+ public:
+    explicit ContentSink(std::filesystem::path folder);
+    std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
+                    const std::string& media_type) override;
+
+ private:
+    std::filesystem::path m_folder;
+};
+
+/// The report of contract.md, status "done", without id: `created_at` and `finished_at` are UTC, RFC 3339.
+nlohmann::json make_report(const Spec& spec, const Comparison& comparison, BlobSink& sink,
+                           const std::string& created_at);
+
+/// A table for the terminal: a line a method.
+std::string report_table(const nlohmann::json& report);
+/// JUnit XML: a test case a check, or one case a method where the spec has no checks.
+std::string report_junit(const nlohmann::json& report);
+/// One HTML file that needs nothing else; `read_picture` gives the bytes of a picture by its image object.
+std::string report_html(const nlohmann::json& report,
+                        const std::function<std::string(const nlohmann::json& image)>& read_picture);
+
+/// Lower-case hexadecimal SHA-256.
+std::string sha256_hex(const std::string& bytes);
+/// Now in UTC, RFC 3339 with milliseconds.
+std::string utc_now();
+
+}  // namespace sheer

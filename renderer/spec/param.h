@@ -1,0 +1,59 @@
+#pragma once
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/errors.h"
+
+namespace sheer {
+
+/// One field of a spec, described once: the reader, the JSON schema, `sheer methods`, the page's forms and the docs are
+/// all made from it.
+struct Param {
+    enum class Kind { number, integer, boolean, choice, text, numbers, object, list, any };
+
+    std::string name;
+    Kind kind = Kind::number;
+    std::string summary;
+    std::string unit;                       ///< "" where it has none
+    nlohmann::json default_value = nullptr;  ///< null: the field must be given, unless `optional`
+    bool optional = false;                  ///< may be absent, then it is null
+    double min = -std::numeric_limits<double>::infinity();
+    double max = std::numeric_limits<double>::infinity();
+    bool exclusive = false;           ///< min and max themselves are not allowed
+    std::vector<std::string> choices;  ///< of a choice
+    std::size_t min_length = 0;        ///< of text (bytes), numbers and lists
+    std::size_t max_length = 0;
+    std::vector<Param> fields;  ///< of an object, or of the objects in a list
+
+    static Param number(std::string name, std::string summary, std::string unit, double fallback, double min, double max);
+    static Param integer(std::string name, std::string summary, std::string unit, long long fallback, double min,
+                         double max);
+    static Param boolean(std::string name, std::string summary, bool fallback);
+    static Param choice(std::string name, std::string summary, std::string fallback, std::vector<std::string> choices);
+    static Param text(std::string name, std::string summary, std::string fallback, std::size_t max_length_bytes);
+    /// A fixed count of numbers, such as a colour.
+    static Param numbers(std::string name, std::string summary, std::string unit, std::vector<double> fallback,
+                         double min, double max);
+    static Param object(std::string name, std::string summary, std::vector<Param> fields);
+    static Param list(std::string name, std::string summary, std::vector<Param> fields, std::size_t min_length,
+                      std::size_t max_length);
+
+    Param required() const;
+};
+
+/// Reads `object` by its description: checks types and ranges, fills in defaults, adds an error for each wrong, missing
+/// or unknown field. Returns the normalised object; its wrong fields hold their defaults.
+nlohmann::json read_fields(const nlohmann::json& object, const std::string& pointer, const std::vector<Param>& fields,
+                           std::vector<FieldError>& errors);
+
+/// The same description as a JSON schema (draft 7) object.
+nlohmann::json schema_of(const std::vector<Param>& fields);
+/// The same description as an array of {name, kind, summary, unit, default, min, max, choices, fields}.
+nlohmann::json to_json(const std::vector<Param>& fields);
+
+/// `token` escaped for a JSON pointer (RFC 6901).
+std::string pointer_token(const std::string& token);
+
+}  // namespace sheer

@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/errors.h"
+
+namespace sheer {
+
+/// What the methods blend into.
+enum class PixelFormat { rgba8, rgba16f, rgba32f };
+
+struct ImageSpec {
+    int width_px = 512;
+    int height_px = 512;
+    std::array<float, 3> background{};  ///< 0..1
+    PixelFormat format = PixelFormat::rgba8;
+};
+
+/// A method with its parameters, normalised: every parameter is there.
+struct MethodSpec {
+    std::string id;
+    std::string label;  ///< unique in the spec
+    nlohmann::json parameters;
+};
+
+struct TimingSpec {
+    int warmup = 1;
+    int rounds = 10;
+    double max_seconds = 60;  ///< no new round is begun after this
+};
+
+struct CheckSpec {
+    std::string metric;  ///< "flip.mean", "rmse", "speedup", ...
+    std::string method;  ///< label
+    nlohmann::json min = nullptr, max = nullptr;
+};
+
+/// A comparison to make, valid and with defaults filled in.
+struct Spec {
+    std::string title;
+    ImageSpec image;
+    std::string scene_type;
+    nlohmann::json scene;  ///< its parameters, normalised, with `type`
+    std::vector<MethodSpec> methods;
+    MethodSpec reference;
+    std::string baseline;  ///< label of one of `methods`
+    TimingSpec timing;
+    std::vector<CheckSpec> checks;
+    nlohmann::json normalised;  ///< the whole as JSON; parsing it gives the same spec
+
+    /// SHA-256 is over this text: keys sorted, no spaces.
+    std::string canonical_text() const { return normalised.dump(); }
+};
+
+/// Throws SpecError with every wrong field.
+Spec parse_spec(const nlohmann::json& document);
+/// The same from text; text that is not JSON gives one error at pointer "" that says where it breaks.
+Spec parse_spec_text(const std::string& text);
+
+/// JSON schema (draft 7) of a spec, made from the descriptions of methods and scenes.
+nlohmann::json spec_schema();
+
+/// What `GET /methods` and `GET /scenes` answer: an array of self-descriptions with `parameters`.
+nlohmann::json describe_methods();
+nlohmann::json describe_scenes();
+/// Every metric and its fields, for the page's captions.
+nlohmann::json describe_metrics();
+
+}  // namespace sheer

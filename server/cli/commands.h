@@ -1,0 +1,20 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace sheer::cli {
+
+// Exit codes of the program.
+inline constexpr int exit_ok = 0;
+inline constexpr int exit_check_failed = 1;
+inline constexpr int exit_bad_spec = 2;
+inline constexpr int exit_render_failed = 3;
+inline constexpr int exit_no_server = 4;
+
+/// Each adds its subcommand to `app`; when it is chosen it runs and stores the exit code.
+void add_compare(CLI::App& app, int& exit_code);
+void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, devices
+void add_render(CLI::App& app, int& exit_code);   ///< the worker's child; not shown in the help
+void add_serve(CLI::App& app, int& exit_code);
+void add_worker(CLI::App& app, int& exit_code);  ///< started by serve; not shown in the help
+
+}  // namespace sheer::cli
