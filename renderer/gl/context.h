@@ -33,7 +33,7 @@ struct ContextRequest {
 /// KHR_debug messages go to the log with the labels of the objects; one of high severity, or of type error, is kept and
 /// thrown as RenderError by `check()`.
 class Context {
- public:
+  public:
     virtual ~Context() = default;
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
@@ -50,13 +50,13 @@ class Context {
     /// `where` says what was being done, for the message.
     void check(std::string_view where) const;
 
- protected:
+  protected:
     Context() = default;
     /// Called by each implementation once its context is current: loads the functions, reads the device's strings,
     /// turns debug output on, picks the workarounds. Throws RenderError if it is not at least OpenGL 4.5.
     void initialize(const Resolver& resolve, DeviceInfo device, const ContextRequest& request);
 
- private:
+  private:
     struct DebugLog;
     Functions m_gl;
     DeviceInfo m_device;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
@@ -10,13 +11,18 @@
 
 namespace sheer::gl {
 
-/// A GL object that is deleted with its owner. Move-only, labelled for debug output; must die before its context.
+/// A longer label is cut: every OpenGL 4.3 driver takes this many bytes, and one too many is an error.
+inline constexpr std::size_t max_label_bytes = 255;
+
+/// A GL object that is deleted with its owner. Move-only, labelled for debug output; must die before its context, while
+/// that context is current.
 template <typename Kind>
 class Object {
- public:
+  public:
     Object() = default;
     Object(const Functions& gl, GLuint id, std::string_view label) : m_gl(&gl), m_id(id) {
-        gl.ObjectLabel(Kind::identifier, id, static_cast<GLsizei>(label.size()), label.data());
+        gl.ObjectLabel(Kind::identifier, id, static_cast<GLsizei>(std::min(label.size(), max_label_bytes)),
+                       label.data());
     }
     Object(Object&& other) noexcept : m_gl(other.m_gl), m_id(std::exchange(other.m_id, 0)) {}
     Object& operator=(Object&& other) noexcept {
@@ -31,7 +37,7 @@ class Object {
     GLuint id() const { return m_id; }
     explicit operator bool() const { return m_id != 0; }
 
- private:
+  private:
     const Functions* m_gl = nullptr;
     GLuint m_id = 0;
 };
@@ -67,7 +73,7 @@ using Framebuffer = Object<FramebufferKind>;
 using VertexArray = Object<VertexArrayKind>;
 using Query = Object<QueryKind>;
 
-/// An immutable buffer of `size_bytes`; `data` may be null. `flags` as glNamedBufferStorage.
+/// An immutable buffer of `size_bytes` > 0; `data` may be null. `flags` as glNamedBufferStorage.
 Buffer make_buffer(const Functions& gl, std::string_view label, GLsizeiptr size_bytes, const void* data,
                    GLbitfield flags = 0);
 
@@ -75,7 +81,8 @@ Buffer make_buffer(const Functions& gl, std::string_view label, GLsizeiptr size_
 Texture make_texture_2d(const Functions& gl, std::string_view label, GLenum internal_format, int width_px,
                         int height_px, int levels = 1);
 
-/// A framebuffer with the given colour textures (0..n-1) and depth texture (0 for none).
+/// A framebuffer with the given colour textures (0..n-1) and depth texture (0 for none; one with
+/// stencil bits is the stencil attachment too). It draws to all of its colour textures.
 /// Throws RenderError naming `label` if it is not complete.
 Framebuffer make_framebuffer(const Functions& gl, std::string_view label, std::span<const GLuint> colors, GLuint depth);
 
@@ -84,7 +91,7 @@ Query make_query(const Functions& gl, std::string_view label, GLenum target);
 
 /// A linked program. Throws RenderError with the driver's log, naming `label` and the stage, if it does not build.
 class Program {
- public:
+  public:
     Program() = default;
     Program(const Functions& gl, std::string_view label, std::string_view vertex_source,
             std::string_view fragment_source);
@@ -101,7 +108,7 @@ class Program {
     void set(const char* name, const glm::vec4& value) const;
     void set(const char* name, const glm::mat4& value) const;
 
- private:
+  private:
     const Functions* m_gl = nullptr;
     Object<ProgramKind> m_object;
 };

@@ -33,18 +33,18 @@ struct FrameSample {
 ///
 /// GL_TIME_ELAPSED is wrong on llvmpipe unless a glFlush follows its begin: see the workaround `flush-timer-queries`.
 class FrameTimer {
- public:
+  public:
     explicit FrameTimer(const Context& context);
     ~FrameTimer();
 
     /// Ends its pass when it goes out of scope. Passes do not nest.
     class Pass {
-     public:
+      public:
         Pass(Pass&& other) noexcept;
         Pass& operator=(Pass&&) = delete;
         ~Pass();
 
-     private:
+      private:
         friend class FrameTimer;
         explicit Pass(FrameTimer* timer) : m_timer(timer) {}
         FrameTimer* m_timer;
@@ -55,7 +55,7 @@ class FrameTimer {
     /// Waits until the frame is done. Without timing all times are 0.
     FrameSample end_frame();
 
- private:
+  private:
     struct State;
     void end_pass();
     std::unique_ptr<State> m_state;

@@ -20,7 +20,7 @@ std::span<const Workaround> known_workarounds();
 
 /// Those in use on a context.
 class Workarounds {
- public:
+  public:
     Workarounds() = default;
     /// Throws std::invalid_argument for a name in `disabled` that is not known.
     Workarounds(const DeviceInfo& device, std::span<const std::string> disabled);
@@ -28,7 +28,7 @@ class Workarounds {
     bool has(std::string_view name) const;
     const std::vector<std::string>& names() const { return m_names; }
 
- private:
+  private:
     std::vector<std::string> m_names;
 };
 

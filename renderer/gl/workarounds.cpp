@@ -1,0 +1,56 @@
+#include "renderer/gl/workarounds.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "renderer/gl/context.h"
+
+namespace sheer::gl {
+namespace {
+
+bool is_llvmpipe(const DeviceInfo& device) {
+    return device.renderer.find("llvmpipe") != std::string::npos;
+}
+
+constexpr std::array workarounds{
+    Workaround{
+        "flush-timer-queries",
+        "llvmpipe stamps the begin of a GL_TIME_ELAPSED query once per rasterised tile, and a later tile overwrites "
+        "the stamp of an earlier one, so that a query around a frame of 835 ms gave 25.8 ms. A glFlush right after "
+        "the begin puts the stamp into a batch of its own, which is rasterised before the pass begins.",
+        is_llvmpipe,
+    },
+};
+
+}  // namespace
+
+std::span<const Workaround> known_workarounds() {
+    return workarounds;
+}
+
+Workarounds::Workarounds(const DeviceInfo& device, std::span<const std::string> disabled) {
+    for (const std::string& name : disabled) {
+        if (std::ranges::find(workarounds, name, &Workaround::name) != workarounds.end()) continue;
+        std::vector<std::string_view> known;
+        for (const Workaround& workaround : workarounds) known.push_back(workaround.name);
+        throw std::invalid_argument(
+            fmt::format("there is no workaround '{}'; the known ones are: {}", name, fmt::join(known, ", ")));
+    }
+    for (const Workaround& workaround : workarounds) {
+        if (!workaround.applies(device)) continue;
+        const bool off = std::ranges::find(disabled, workaround.name) != disabled.end();
+        spdlog::info("{}: workaround {} {}", device.name, workaround.name, off ? "applies but is off" : "in use");
+        if (!off) m_names.emplace_back(workaround.name);
+    }
+}
+
+bool Workarounds::has(std::string_view name) const {
+    return std::ranges::find(m_names, name) != m_names.end();
+}
+
+}  // namespace sheer::gl
