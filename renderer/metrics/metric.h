@@ -18,26 +18,28 @@ struct ImagePair {
     Image8 reference8;
     Image8 test8;
 
+    /// Throws std::invalid_argument if the sizes differ or a picture is empty or not as long as its size says.
     ImagePair(const Image& reference_image, const Image& test_image);
 };
 
-/// One number of a metric, as checks name it: "flip.mean", or "rmse" where the metric is a single number.
+/// One value of a metric, as checks name it: "flip.mean", or "rmse" where the metric is a single number.
 struct MetricField {
-    std::string name;  ///< "" where the metric's value is the number itself
+    std::string name;  ///< "" where the metric's value is the field itself
     std::string unit;
     std::string range;  ///< e.g. "0..1"
     std::string summary;
+    bool is_number = true;  ///< a number or null, so that a check can bound it; worst_pixel is a pair
 };
 
 /// What a metric gives for one pair.
 struct MetricValue {
-    nlohmann::json value;          ///< a number, null, an array or an object with the fields
+    nlohmann::json value;           ///< a number, null, an array or an object with the fields
     std::optional<Image8> picture;  ///< a map to look at, same size as the pair
 };
 
 /// A metric describes itself; the file renderer/metrics/<id>.cpp ends with `MetricInfo metric_<id>()`.
 struct MetricInfo {
-    std::string id;       ///< key in the report's `metrics`
+    std::string id;  ///< key in the report's `metrics`
     std::string name;
     std::string summary;
     std::string source;   ///< paper or standard
@@ -49,7 +51,7 @@ struct MetricInfo {
 /// Every metric, from the generated table.
 const std::vector<MetricInfo>& all_metrics();
 
-/// The values of all metrics by id, and the pictures by their key. Throws std::invalid_argument if the sizes differ.
+/// The values of all metrics by id, and the pictures by their key. Throws std::invalid_argument as ImagePair does.
 struct Metrics {
     nlohmann::json values;
     std::vector<std::pair<std::string, Image8>> pictures;

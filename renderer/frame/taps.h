@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace sheer {
+
+/// One half of a filter of 2 * Radius + 1 taps that is symmetric or antisymmetric: [0] is the centre, [k] belongs to
+/// +k; the tap at -k is the same (even) or its negative (odd, where the centre is 0).
+template <int Radius>
+using Taps = std::array<float, Radius + 1>;
+
+/// exp(-x^2 / (2 sigma^2)) at whole x, scaled so that all taps sum to 1; taps beyond `cut` are 0.
+template <int Radius>
+Taps<Radius> gaussian_taps(double sigma_px, int cut = Radius) {
+    std::array<double, Radius + 1> weights{};
+    double sum = 0;
+    for (int k = 0; k <= cut; ++k) {
+        weights[k] = std::exp(-k * k / (2 * sigma_px * sigma_px));
+        sum += k == 0 ? weights[k] : 2 * weights[k];
+    }
+    Taps<Radius> taps{};
+    for (int k = 0; k <= cut; ++k) taps[k] = float(weights[k] / sum);
+    return taps;
+}
+
+/// The filter's value around `centre`, whose neighbours lie `Step` apart. Everything is known to the compiler, so that
+/// a loop over neighbouring centres becomes vector code.
+template <int Radius, std::ptrdiff_t Step>
+inline float even_sum(const float* centre, const Taps<Radius>& taps) {
+    float sum = taps[0] * centre[0];
+    for (int k = 1; k <= Radius; ++k) sum += taps[k] * (centre[k * Step] + centre[-k * Step]);
+    return sum;
+}
+
+template <int Radius, std::ptrdiff_t Step>
+inline float odd_sum(const float* centre, const Taps<Radius>& taps) {
+    float sum = 0;
+    for (int k = 1; k <= Radius; ++k) sum += taps[k] * (centre[k * Step] - centre[-k * Step]);
+    return sum;
+}
+
+}  // namespace sheer

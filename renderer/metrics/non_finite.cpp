@@ -1,0 +1,37 @@
+// Pixels that are no colour at all: a method that divides by a zero alpha or overflows its target shows here.
+
+#include <bit>
+
+#include "renderer/metrics/metric.h"
+
+namespace sheer {
+namespace {
+
+/// 1 for a NaN or an infinity: all bits of the exponent are set.
+std::uint32_t non_finite(float value) {
+    return (std::bit_cast<std::uint32_t>(value) & 0x7f800000u) == 0x7f800000u;
+}
+
+MetricValue compute(const ImagePair& pair) {
+    const float* rgba = pair.test.rgba.data();
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < pair.test.pixel_count(); ++i, rgba += 4)
+        count += non_finite(rgba[0]) | non_finite(rgba[1]) | non_finite(rgba[2]) | non_finite(rgba[3]);
+    return {count, std::nullopt};
+}
+
+}  // namespace
+
+MetricInfo metric_non_finite() {
+    return {"non_finite",
+            "Non-finite pixels",
+            "Pixels of the method's float picture with a NaN or an infinity in red, green, blue or alpha. The other "
+            "metrics "
+            "take such a colour for the level furthest from the reference.",
+            "IEEE 754 classification",
+            "",
+            {{"", "pixels", "0..width*height", "Number of pixels with a NaN or an infinity"}},
+            compute};
+}
+
+}  // namespace sheer

@@ -1,0 +1,57 @@
+// Signed difference: how far off the method is, and in which direction, as Table 6 of the front-to-back paper gives it.
+// Vlček, Havel, Herout: "Front-to-Back Blending with Early Fragment Discarding", SCCG 2010.
+
+#include <array>
+#include <cmath>
+
+#include "renderer/metrics/level_errors.h"
+#include "renderer/metrics/metric.h"
+
+namespace sheer {
+namespace {
+
+/// Level of the picture for a difference of -255..255, at [difference + 255]. The square root lets a single level show
+/// (8 of 255) and still keeps the largest difference in range, so that pictures of different methods can be compared.
+std::array<std::uint8_t, 511> picture_levels() {
+    std::array<std::uint8_t, 511> levels{};
+    for (int difference = -255; difference <= 255; ++difference) {
+        const int size = int(std::lround(127 * std::sqrt(std::abs(difference) / 255.0)));
+        levels[std::size_t(difference + 255)] = std::uint8_t(128 + (difference < 0 ? -size : size));
+    }
+    return levels;
+}
+
+Image8 draw(const Image8& reference, const Image8& test) {
+    const auto levels = picture_levels();
+    Image8 picture(reference.width_px, reference.height_px);
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+        picture.rgb[i] = levels[std::size_t(int(reference.rgb[i]) - int(test.rgb[i]) + 255)];
+    return picture;
+}
+
+MetricValue compute(const ImagePair& pair) {
+    const LevelErrors errors = level_errors(pair.reference8, pair.test8);
+    return {{{"mean_abs", double(errors.sum_of_absolutes) / double(errors.count)},
+             {"min", errors.min},
+             {"max", errors.max}},
+            draw(pair.reference8, pair.test8)};
+}
+
+}  // namespace
+
+MetricInfo metric_signed() {
+    return {
+        "signed",
+        "Signed difference",
+        "Reference minus method in 8-bit levels over red, green and blue. In the picture mid grey (128) is no "
+        "difference, brighter is where the reference is brighter; a difference of d levels is 127 sqrt(|d|/255) away "
+        "from grey, so that one level shows and 255 fit.",
+        "Vlček, Havel, Herout, Front-to-Back Blending with Early Fragment Discarding, SCCG 2010, Table 6",
+        "difference",
+        {{"mean_abs", "levels", "0..255", "Mean of the absolute differences"},
+         {"min", "levels", "-255..255", "Smallest difference: where the method is too bright"},
+         {"max", "levels", "-255..255", "Greatest difference: where the method is too dark"}},
+        compute};
+}
+
+}  // namespace sheer

@@ -1,0 +1,148 @@
+// SSIM: how alike the structure of the two pictures is, window by window.
+// Wang, Bovik, Sheikh, Simoncelli: "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE
+// Transactions on Image Processing 13(4), 2004, equation 13.
+//
+// The mean over red, green and blue and over all windows of 11x11 Gaussian weights (sigma 1.5) that lie wholly inside
+// the picture, so no border is invented; K1 = 0.01, K2 = 0.03, range 255, no downsampling. A picture narrower than the
+// window gets the widest odd window that fits, with the weights scaled to sum to 1.
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "renderer/frame/taps.h"
+#include "renderer/frame/work_queue.h"
+#include "renderer/metrics/metric.h"
+
+namespace sheer {
+namespace {
+
+constexpr int radius = 5;
+constexpr double sigma_px = 1.5;
+constexpr float c1 = (0.01f * 255) * (0.01f * 255);
+constexpr float c2 = (0.03f * 255) * (0.03f * 255);
+
+constexpr int tile_width = 128;
+constexpr int tile_height = 64;
+constexpr int source_width = tile_width + 2 * radius;
+constexpr int source_height = tile_height + 2 * radius;
+
+using Row = std::array<float, tile_width>;
+using SourceRow = std::array<float, source_width>;
+
+/// Room for one thread: the moments of a tile, filtered along rows. SSIM needs the variances only as their sum.
+struct Scratch {
+    SourceRow one, two, squares, product;
+    std::array<Row, source_height> mean_one, mean_two, mean_squares, mean_product;
+};
+
+/// The windows' centres, and the windows' shape.
+struct Windows {
+    int left, top, width, height;  ///< of the centres, px
+    Taps<radius> across, down;
+
+    explicit Windows(const Image8& image) {
+        const int reach_x = std::min(radius, (image.width_px - 1) / 2);
+        const int reach_y = std::min(radius, (image.height_px - 1) / 2);
+        left = reach_x;
+        top = reach_y;
+        width = image.width_px - 2 * reach_x;
+        height = image.height_px - 2 * reach_y;
+        across = gaussian_taps<radius>(sigma_px, reach_x);
+        down = gaussian_taps<radius>(sigma_px, reach_y);
+    }
+};
+
+/// Levels around 0, so that the moments lose fewer bits; a shift leaves variances as they are.
+constexpr float middle = 128;
+
+struct Tile {
+    int left, top, width, height;  ///< of the centres, px in the picture
+};
+
+void filter_rows(const ImagePair& pair, const Windows& windows, const Tile& tile, int channel, Scratch& scratch) {
+    const int last_x = pair.reference8.width_px - 1;
+    const int last_y = pair.reference8.height_px - 1;
+    for (int y = 0; y < tile.height + 2 * radius; ++y) {
+        // Pixels outside the picture meet taps of 0 or centres that do not count: any finite value does.
+        const int from_y = std::clamp(tile.top + y - radius, 0, last_y);
+        const std::uint8_t* one = pair.reference8.pixel(0, from_y) + channel;
+        const std::uint8_t* two = pair.test8.pixel(0, from_y) + channel;
+        for (int x = 0; x < source_width; ++x) {
+            const int from_x = std::clamp(tile.left + x - radius, 0, last_x);
+            scratch.one[x] = float(one[from_x * 3]) - middle;
+            scratch.two[x] = float(two[from_x * 3]) - middle;
+        }
+        for (int x = 0; x < source_width; ++x) {
+            scratch.squares[x] = scratch.one[x] * scratch.one[x] + scratch.two[x] * scratch.two[x];
+            scratch.product[x] = scratch.one[x] * scratch.two[x];
+        }
+        const auto across = [&](const SourceRow& from, Row& to) {
+            for (int x = 0; x < tile_width; ++x) to[x] = even_sum<radius, 1>(&from[x + radius], windows.across);
+        };
+        across(scratch.one, scratch.mean_one[y]);
+        across(scratch.two, scratch.mean_two[y]);
+        across(scratch.squares, scratch.mean_squares[y]);
+        across(scratch.product, scratch.mean_product[y]);
+    }
+}
+
+/// The sum of SSIM over row `y` of a tile.
+double row_sum(const Windows& windows, const Tile& tile, int y, const Scratch& scratch) {
+    Row one, two, squares, product, ssim;
+    const auto down = [&](const std::array<Row, source_height>& from, Row& to) {
+        const float* centre = from[y + radius].data();
+        for (int x = 0; x < tile_width; ++x) to[x] = even_sum<radius, tile_width>(centre + x, windows.down);
+    };
+    down(scratch.mean_one, one);
+    down(scratch.mean_two, two);
+    down(scratch.mean_squares, squares);
+    down(scratch.mean_product, product);
+    for (int x = 0; x < tile_width; ++x) {
+        const float variances = squares[x] - (one[x] * one[x] + two[x] * two[x]);
+        const float covariance = product[x] - one[x] * two[x];
+        const float mean_one = one[x] + middle;
+        const float mean_two = two[x] + middle;
+        ssim[x] = (2 * mean_one * mean_two + c1) * (2 * covariance + c2) /
+                  ((mean_one * mean_one + mean_two * mean_two + c1) * (variances + c2));
+    }
+    return std::accumulate(ssim.begin(), ssim.begin() + tile.width, 0.0);
+}
+
+MetricValue compute(const ImagePair& pair) {
+    const Windows windows(pair.reference8);
+    const int columns = (windows.width + tile_width - 1) / tile_width;
+    const int rows = (windows.height + tile_height - 1) / tile_height;
+    std::vector<double> sums(std::size_t(columns) * rows, 0.0);
+    share_work(columns * rows, [&](WorkQueue& queue) {
+        const auto scratch = std::make_unique<Scratch>();
+        for (int index; queue.take(index);) {
+            const int x = index % columns * tile_width;
+            const int y = index / columns * tile_height;
+            const Tile tile{windows.left + x, windows.top + y, std::min(tile_width, windows.width - x),
+                            std::min(tile_height, windows.height - y)};
+            for (int channel = 0; channel < 3; ++channel) {
+                filter_rows(pair, windows, tile, channel, *scratch);
+                for (int row = 0; row < tile.height; ++row) sums[index] += row_sum(windows, tile, row, *scratch);
+            }
+        }
+    });
+    const double count = 3.0 * windows.width * windows.height;
+    return {std::accumulate(sums.begin(), sums.end(), 0.0) / count, std::nullopt};
+}
+
+}  // namespace
+
+MetricInfo metric_ssim() {
+    return {
+        "ssim",
+        "SSIM",
+        "Structural similarity, mean over red, green and blue and over the 11x11 Gaussian windows that lie wholly in "
+        "the picture; 1 where the pictures are identical.",
+        "Wang et al., Image Quality Assessment: From Error Visibility to Structural Similarity, IEEE TIP 2004",
+        "",
+        {{"", "", "-1..1", "Mean structural similarity"}},
+        compute};
+}
+
+}  // namespace sheer
