@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,9 +23,7 @@ struct MethodResult {
     std::vector<gl::FrameSample> samples;  ///< every timed frame, in the order of the rounds
     std::optional<Metrics> metrics;        ///< absent where the method has none
     std::string no_metrics_reason;
-    std::int64_t memory_bytes = 0;         ///< GL objects the method made for itself
-    std::int64_t submitted_fragments = -1;  ///< rasterised in the transparent passes; -1 if not counted
-    std::int64_t shaded_fragments = -1;     ///< of these, those that ran the scene's shading
+    std::int64_t memory_bytes = 0;  ///< GL objects the method made for itself
 };
 
 /// One point of the sweep.

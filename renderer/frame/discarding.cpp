@@ -1,0 +1,100 @@
+#include "renderer/frame/discarding.h"
+
+#include <algorithm>
+
+namespace sheer {
+
+namespace {
+
+constexpr const char* fetch_extension = "GL_EXT_shader_framebuffer_fetch";
+
+gl::Program make_program(const MethodSetup& setup, bool framebuffer_fetch, bool separate_alpha) {
+    if (framebuffer_fetch && !setup.context.has_extension(fetch_extension))
+        throw Unsupported(std::string("feedback framebuffer_fetch needs ") + fetch_extension);
+    std::string prolog;
+    if (framebuffer_fetch) prolog += std::string("#extension ") + fetch_extension + " : require\n";
+    prolog += framebuffer_fetch ? "#define FRAMEBUFFER_FETCH 1\n" : "#define FRAMEBUFFER_FETCH 0\n";
+    prolog += separate_alpha ? "#define SEPARATE_ALPHA 1\n" : "#define SEPARATE_ALPHA 0\n";
+    return setup.scene.make_program("f2bd", gl::shader_file("methods/f2bd.glsl"), prolog);
+}
+
+bool separate(const MethodSetup& setup) {
+    return setup.parameters.at("alpha_target") == "separate";
+}
+
+}  // namespace
+
+std::vector<Param> discarding_parameters() {
+    return {
+        Param::number("threshold", "a fragment is discarded where less than this transmittance is left", "", 0.01, 0,
+                      1),
+        Param::choice(
+            "sync",
+            "how the caches are made to see the clear and each batch: a texture barrier, binding framebuffer 0 "
+            "and back, or not at all (shows the artefacts of the paper's Figure 3 on hardware)",
+            "barrier", {"barrier", "rebind", "none"}),
+        Param::choice("alpha_target", "read the transmittance from the colour target or from one of a single channel",
+                      "shared", {"shared", "separate"}),
+        Param::choice("feedback", "how the fragment reads it", "texture", {"texture", "framebuffer_fetch"}),
+        Param::integer("batch", "primitives between synchronisations; 0 synchronises after the clear only", "", 0, 0,
+                       1000000),
+    };
+}
+
+DiscardingBlending::DiscardingBlending(const MethodSetup& setup, float initial_transmittance)
+    : m_gl(setup.gl),
+      m_scene(setup.scene),
+      m_initial_transmittance(initial_transmittance),
+      m_threshold(setup.parameters.at("threshold").get<float>()),
+      m_sync(setup.parameters.at("sync") == "barrier"  ? Sync::barrier
+             : setup.parameters.at("sync") == "rebind" ? Sync::rebind
+                                                       : Sync::none),
+      m_framebuffer_fetch(setup.parameters.at("feedback") == "framebuffer_fetch"),
+      m_batch(setup.parameters.at("batch").get<std::size_t>()),
+      m_opaque(setup.gl, setup.scene, setup.target),
+      m_accumulation(setup.gl, setup.target, setup.target.format(), separate(setup)),
+      m_program(make_program(setup, m_framebuffer_fetch, separate(setup))) {
+    m_program.set("u_threshold", m_threshold);
+}
+
+void DiscardingBlending::render(gl::FrameTimer& timer) {
+    m_opaque.draw(timer);
+    {
+        const auto pass = timer.pass("clear", gl::Phase::initialization);
+        m_accumulation.clear(m_initial_transmittance);
+        synchronise();
+    }
+    {
+        const auto pass = timer.pass("transparent", gl::Phase::transparent);
+        m_accumulation.begin_blending();
+        if (!m_framebuffer_fetch) m_gl.BindTextureUnit(first_method_texture_unit, m_accumulation.readable_alpha().id());
+        draw_batches();
+    }
+    const auto pass = timer.pass("composite", gl::Phase::finalization);
+    m_accumulation.composite();
+}
+
+void DiscardingBlending::draw_batches() const {
+    const std::size_t count = m_scene.transparent_count();
+    const std::size_t step = m_batch == 0 ? std::max<std::size_t>(count, 1) : m_batch;
+    for (std::size_t first = 0; first < count; first += step) {
+        if (first > 0) synchronise();
+        m_scene.draw_transparent(m_program, Order::near_to_far, first, std::min(step, count - first));
+    }
+}
+
+void DiscardingBlending::synchronise() const {
+    switch (m_sync) {
+        case Sync::barrier:
+            m_gl.TextureBarrier();
+            break;
+        case Sync::rebind:
+            m_gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+            m_gl.BindFramebuffer(GL_FRAMEBUFFER, m_accumulation.framebuffer().id());
+            break;
+        case Sync::none:
+            break;
+    }
+}
+
+}  // namespace sheer

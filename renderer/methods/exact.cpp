@@ -1,0 +1,220 @@
+// The reference: every fragment of a pixel is kept, sorted by depth and composited in 32-bit floats.
+// Lists: per-pixel linked lists with atomics (Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List
+// Construction on the GPU, EGSR 2010). The fragments are counted first, and the image is cut into tiles whose fragments
+// fit the memory, so that none is ever dropped. Each list is sorted by merging runs, in several passes, because a
+// shader's loops may have an iteration limit (65,535 on llvmpipe).
+// Sorted: where the primitives are parallel, drawing them from near to far into 32-bit floats gives the same picture
+// faster; form `auto` then takes it.
+// Good at: being right. Bad at: memory and time. Parameters: `form` auto, lists or sorted; `memory_mib` for the lists.
+#include <algorithm>
+#include <array>
+
+#include "renderer/frame/accumulation.h"
+#include "renderer/frame/overdraw.h"
+#include "renderer/methods/method.h"
+
+namespace sheer {
+
+namespace {
+
+constexpr std::int64_t node_bytes = 28;  // colour 16, depth 4, primitive 4, next 4
+constexpr std::int64_t loop_budget = 40000;  // iterations in one pass, under llvmpipe's 65,535
+
+struct Tile {
+    int x0, y0, x1, y1;
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+};
+
+/// Halves `tile` until the fragments of each part fit.
+void divide(const Overdraw& overdraw, Tile tile, std::uint64_t capacity, std::vector<Tile>& tiles) {
+    const std::uint64_t fragments = overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1);
+    if (fragments == 0) return;
+    if (fragments <= capacity) {
+        tiles.push_back(tile);
+        return;
+    }
+    if (tile.width() == 1 && tile.height() == 1)
+        throw Unsupported("one pixel has " + std::to_string(fragments) + " fragments; the lists hold " +
+                          std::to_string(capacity));
+    const bool wide = tile.width() >= tile.height();
+    const int middle = wide ? tile.x0 + tile.width() / 2 : tile.y0 + tile.height() / 2;
+    divide(overdraw, wide ? Tile{tile.x0, tile.y0, middle, tile.y1} : Tile{tile.x0, tile.y0, tile.x1, middle}, capacity,
+           tiles);
+    divide(overdraw, wide ? Tile{middle, tile.y0, tile.x1, tile.y1} : Tile{tile.x0, middle, tile.x1, tile.y1}, capacity,
+           tiles);
+}
+
+class LinkedLists : public Method {
+ public:
+    explicit LinkedLists(const MethodSetup& setup)
+        : m_gl(setup.gl),
+          m_scene(setup.scene),
+          m_target(setup.target),
+          m_opaque(setup.gl, setup.scene, setup.target),
+          m_build(setup.scene.make_program("exact: build", source("build"))),
+          m_sort(setup.gl, "exact: sort", source("sort")),
+          m_composite(setup.gl, "exact: composite", source("composite")) {
+        std::int64_t largest_block = 0;
+        m_gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest_block);
+        const std::int64_t wanted = setup.parameters.at("memory_mib").get<std::int64_t>() << 20;
+        m_capacity = static_cast<std::uint64_t>(std::min(largest_block, wanted) / node_bytes);
+    }
+
+    void render(gl::FrameTimer& timer) override {
+        if (!m_nodes) prepare(timer);
+        m_opaque.draw(timer);
+        for (const Tile& tile : m_tiles) {
+            build(tile, timer);
+            sort_and_composite(tile, timer);
+        }
+    }
+
+    std::int64_t memory_bytes() const override { return m_memory_bytes; }
+
+ private:
+    static std::string source(const std::string& stage) {
+        return std::string(gl::shader_file("methods/exact_lists.glsl")) +
+               std::string(gl::shader_file("methods/exact_" + stage + ".glsl"));
+    }
+
+    /// The scene does not change from frame to frame, so it is counted once.
+    void prepare(gl::FrameTimer& timer) {
+        const Overdraw overdraw = count_overdraw(m_gl, m_scene, m_target, timer);
+        m_longest = overdraw.greatest();
+        if (m_longest > loop_budget)
+            throw Unsupported("one pixel has " + std::to_string(m_longest) + " fragments; a pass can sort " +
+                              std::to_string(loop_budget));
+        divide(overdraw, {0, 0, m_target.width_px(), m_target.height_px()}, m_capacity, m_tiles);
+        std::uint64_t most_nodes = 1, most_pixels = 1;
+        for (const Tile& tile : m_tiles) {
+            most_nodes = std::max(most_nodes, overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1));
+            most_pixels = std::max(most_pixels, static_cast<std::uint64_t>(tile.width()) * tile.height());
+        }
+        const auto nodes_bytes = static_cast<GLsizeiptr>(most_nodes * node_bytes);
+        const auto heads_bytes = static_cast<GLsizeiptr>((most_pixels + 1) * sizeof(std::uint32_t));
+        m_nodes = gl::make_buffer(m_gl, "exact: nodes", nodes_bytes, nullptr);
+        m_heads = gl::make_buffer(m_gl, "exact: heads", heads_bytes, nullptr);
+        m_memory_bytes = nodes_bytes + heads_bytes;
+    }
+
+    void begin_tile_pass(const Tile& tile) const {
+        begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
+        m_gl.Enable(GL_SCISSOR_TEST);
+        m_gl.Scissor(tile.x0, tile.y0, tile.width(), tile.height());
+        m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, m_nodes.id());
+        m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, m_heads.id());
+        m_gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
+
+    static void set_tile(const gl::Program& program, const Tile& tile) {
+        program.set("u_tile_x", tile.x0);
+        program.set("u_tile_y", tile.y0);
+        program.set("u_tile_width", tile.width());
+    }
+
+    void build(const Tile& tile, gl::FrameTimer& timer) const {
+        const auto pass = timer.pass("build", gl::Phase::transparent);
+        begin_tile_pass(tile);
+        const std::uint32_t zero = 0;
+        m_gl.ClearNamedBufferData(m_heads.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+        set_transparent_depth_state(m_gl);
+        m_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        set_tile(m_build, tile);
+        m_scene.draw_transparent(m_build, Order::submission);
+    }
+
+    void sort_and_composite(const Tile& tile, gl::FrameTimer& timer) const {
+        const auto pass = timer.pass("resolve", gl::Phase::finalization);
+        set_tile(m_sort.program(), tile);
+        // One merge of all runs walks a list about one and a half times.
+        const auto merges_per_pass =
+            static_cast<int>(std::clamp<std::int64_t>(loop_budget / (2 * std::max(m_longest, 1u)), 1, 32));
+        for (std::uint64_t run = 1; run < m_longest; run <<= merges_per_pass) {
+            begin_tile_pass(tile);
+            m_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+            m_sort.program().set("u_run", static_cast<unsigned>(run));
+            m_sort.program().set("u_merges", merges_per_pass);
+            m_sort.draw();
+        }
+        begin_tile_pass(tile);
+        m_gl.Enable(GL_BLEND);
+        m_gl.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
+        set_tile(m_composite.program(), tile);
+        m_composite.draw();
+    }
+
+    const gl::Functions& m_gl;
+    const Scene& m_scene;
+    const Target& m_target;
+    OpaquePass m_opaque;
+    gl::Program m_build;
+    FullscreenPass m_sort, m_composite;
+    std::uint64_t m_capacity = 0;
+    std::uint32_t m_longest = 0;
+    std::vector<Tile> m_tiles;
+    gl::Buffer m_nodes, m_heads;
+    std::int64_t m_memory_bytes = 0;
+};
+
+class SortedFloats : public Method {
+ public:
+    explicit SortedFloats(const MethodSetup& setup)
+        : m_scene(setup.scene),
+          m_opaque(setup.gl, setup.scene, setup.target),
+          m_accumulation(setup.gl, setup.target, PixelFormat::rgba32f),
+          m_program(setup.scene.make_program("exact: sorted", gl::shader_file("methods/f2b.glsl"))) {}
+
+    void render(gl::FrameTimer& timer) override {
+        m_opaque.draw(timer);
+        {
+            const auto pass = timer.pass("transparent", gl::Phase::transparent);
+            m_accumulation.clear(1);
+            m_accumulation.begin_blending();
+            m_scene.draw_transparent(m_program, Order::near_to_far);
+        }
+        const auto pass = timer.pass("composite", gl::Phase::finalization);
+        m_accumulation.composite();
+    }
+
+    std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
+
+ private:
+    const Scene& m_scene;
+    OpaquePass m_opaque;
+    Accumulation m_accumulation;
+    gl::Program m_program;
+};
+
+std::unique_ptr<Method> make(const MethodSetup& setup) {
+    const auto form = setup.parameters.at("form").get<std::string>();
+    if (form == "sorted" && !setup.scene.parallel())
+        throw Unsupported("form sorted needs parallel primitives; this scene's may intersect");
+    if (form == "lists" || !setup.scene.parallel()) return std::make_unique<LinkedLists>(setup);
+    return std::make_unique<SortedFloats>(setup);
+}
+
+}  // namespace
+
+MethodInfo method_exact() {
+    return {
+        .id = "exact",
+        .name = "Exact",
+        .kind = "reference",
+        .summary = "Every fragment of a pixel, sorted by depth and composited in 32-bit floats.",
+        .paper = "Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List Construction on the GPU, EGSR 2010",
+        .good_at = "The right picture for any geometry, intersecting primitives included.",
+        .bad_at = "Memory and time grow with every fragment.",
+        .memory = "28 bytes per fragment of a tile; 16 bytes per pixel in the sorted form",
+        .needs_sorting = false,
+        .parameters = {Param::choice("form",
+                                     "per-pixel lists, or sorted blending into 32-bit floats, which is as exact where "
+                                     "primitives are parallel; auto takes sorted where it may",
+                                     "auto", {"auto", "lists", "sorted"}),
+                       Param::integer("memory_mib", "memory for the lists; the image is cut into tiles that fit", "MiB",
+                                      256, 1, 4096)},
+        .make = make,
+    };
+}
+
+}  // namespace sheer

@@ -1,0 +1,57 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/frame/target.h"
+#include "renderer/gl/context.h"
+#include "renderer/gl/timer.h"
+#include "renderer/scene/scene.h"
+#include "renderer/spec/param.h"
+
+namespace sheer {
+
+/// What a method is made for. All references outlive the method.
+struct MethodSetup {
+    const gl::Context& context;
+    const gl::Functions& gl;  ///< the context's, unless a test counts calls
+    const Scene& scene;
+    const Target& target;
+    const nlohmann::json& parameters;  ///< normalised: every parameter is there
+};
+
+/// A transparency method, ready to render one scene into one target again and again.
+class Method {
+ public:
+    virtual ~Method() = default;
+    /// Renders a whole frame, opaque geometry included, into the target. Each pass sets the GL state it needs.
+    virtual void render(gl::FrameTimer& timer) = 0;
+    /// Textures and buffers that the method needs beside the target.
+    virtual std::int64_t memory_bytes() const { return 0; }
+};
+
+/// A method describes itself; the file renderer/methods/<id>.cpp ends with `MethodInfo method_<id>()`.
+struct MethodInfo {
+    std::string id;
+    std::string name;
+    std::string kind;     ///< e.g. "sorted blending", "reference"
+    std::string summary;
+    std::string paper;    ///< where it comes from
+    std::string good_at;
+    std::string bad_at;
+    std::string memory;   ///< per pixel, beside the target
+    bool needs_sorting = true;  ///< false where the order of submission does not matter or is what is drawn
+    std::vector<Param> parameters;
+    std::string no_metrics_reason;  ///< set where the picture is not meant to be right, so has no error metrics
+    /// Throws Unsupported if the device lacks something.
+    std::function<std::unique_ptr<Method>(const MethodSetup&)> make;
+};
+
+/// Every method, from the generated table.
+const std::vector<MethodInfo>& all_methods();
+/// Null if there is none of this id; letter case is passed over.
+const MethodInfo* find_method(const std::string& id);
+
+}  // namespace sheer

@@ -1,0 +1,144 @@
+#include "renderer/scene/scene.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <stdexcept>
+
+#include "renderer/scene/textures.h"
+
+namespace sheer {
+
+namespace {
+
+constexpr int texture_count = 4;
+
+/// What `shading` of a spec means to shaders/scenes/real_work.glsl.
+struct Shading {
+    const char* name;
+    int textures, samples_per_texture;
+    bool math;
+};
+constexpr Shading shadings[] = {{"constant", 0, 0, false},        {"1-texture", 1, 1, false},
+                                {"4-textures", 4, 1, false},      {"4-textures-math", 4, 1, true},
+                                {"4x4-textures", 4, 4, false},    {"4x4-textures-math", 4, 4, true}};
+
+const Shading& find_shading(const std::string& name) {
+    for (const Shading& shading : shadings)
+        if (shading.name == name) return shading;
+    throw std::invalid_argument("no shading is called " + name);
+}
+
+std::string define(const std::string& name, int value) { return "#define " + name + " " + std::to_string(value) + "\n"; }
+
+/// Far to near; of equal depths the earlier submitted first.
+void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry) {
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+        return geometry.primitives[a].depth > geometry.primitives[b].depth;
+    });
+}
+
+}  // namespace
+
+Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters)
+    : m_gl(gl), m_parallel(geometry.parallel), m_view_projection(geometry.view_projection) {
+    const Shading& shading = find_shading(parameters.at("shading").get<std::string>());
+    m_shading_prolog = define("TEXTURES", shading.textures) + define("SAMPLES_PER_TEXTURE", shading.samples_per_texture) +
+                       define("MATH", shading.math);
+    if (shading.textures > 0) make_textures(parameters.at("texture"));
+
+    m_vertices = gl::make_buffer(gl, "scene vertices", static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(Vertex)),
+                                 geometry.vertices.data());
+    m_vertex_array = gl::make_vertex_array(gl, "scene vertex array");
+    const GLuint array = m_vertex_array.id();
+    gl.VertexArrayVertexBuffer(array, 0, m_vertices.id(), 0, sizeof(Vertex));
+    gl.VertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
+    gl.VertexArrayAttribFormat(array, 1, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
+    gl.VertexArrayAttribFormat(array, 2, 4, GL_FLOAT, GL_FALSE, offsetof(Vertex, tint));
+    gl.VertexArrayAttribIFormat(array, 3, 1, GL_UNSIGNED_INT, offsetof(Vertex, primitive));
+    for (GLuint attribute = 0; attribute < 4; ++attribute) {
+        gl.VertexArrayAttribBinding(array, attribute, 0);
+        gl.EnableVertexArrayAttrib(array, attribute);
+    }
+
+    std::vector<std::size_t> opaque, transparent;
+    for (std::size_t i = 0; i < geometry.primitives.size(); ++i)
+        (geometry.primitives[i].opaque ? opaque : transparent).push_back(i);
+    m_transparent_count = transparent.size();
+    m_opaque = make_list(geometry, opaque, "opaque indices");
+    m_opaque_index_count = static_cast<GLsizei>(m_opaque.first_index.back());
+    m_lists[static_cast<int>(Order::submission)] = make_list(geometry, transparent, "indices in submission order");
+    sort_far_to_near(transparent, geometry);
+    m_lists[static_cast<int>(Order::far_to_near)] = make_list(geometry, transparent, "indices far to near");
+    std::ranges::reverse(transparent);
+    m_lists[static_cast<int>(Order::near_to_far)] = make_list(geometry, transparent, "indices near to far");
+}
+
+Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std::size_t>& order,
+                                 std::string_view label) const {
+    DrawList list;
+    std::vector<std::uint32_t> indices;
+    for (const std::size_t i : order) {
+        const Primitive& primitive = geometry.primitives[i];
+        list.first_index.push_back(indices.size());
+        const auto first = geometry.indices.begin() + primitive.first_index;
+        indices.insert(indices.end(), first, first + primitive.index_count);
+    }
+    list.first_index.push_back(indices.size());
+    if (indices.empty()) indices.push_back(0);  // a GL buffer cannot be empty
+    list.indices = gl::make_buffer(m_gl, label, static_cast<GLsizeiptr>(indices.size() * sizeof(indices[0])), indices.data());
+    return list;
+}
+
+void Scene::make_textures(const nlohmann::json& texture) {
+    for (int variant = 0; variant < texture_count; ++variant) {
+        const auto levels =
+            make_texture(texture.at("image").get<std::string>(), texture.at("size").get<int>(), variant);
+        const int size = levels.front().size_px;
+        gl::Texture object = gl::make_texture_2d(m_gl, "scene texture " + std::to_string(variant), GL_RGBA8, size, size,
+                                                 static_cast<int>(levels.size()));
+        for (std::size_t level = 0; level < levels.size(); ++level)
+            m_gl.TextureSubImage2D(object.id(), static_cast<GLint>(level), 0, 0, levels[level].size_px,
+                                   levels[level].size_px, GL_RGBA, GL_UNSIGNED_BYTE, levels[level].rgba.data());
+        m_gl.TextureParameteri(object.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        m_gl.TextureParameteri(object.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        m_gl.TextureParameteri(object.id(), GL_TEXTURE_WRAP_S, GL_REPEAT);
+        m_gl.TextureParameteri(object.id(), GL_TEXTURE_WRAP_T, GL_REPEAT);
+        m_textures.push_back(std::move(object));
+    }
+}
+
+gl::Program Scene::make_program(std::string_view label, std::string_view method_source, const std::string& prolog) const {
+    const std::string fragment = glsl_version + prolog + m_shading_prolog +
+                                 std::string(gl::shader_file("scenes/real_work.glsl")) + std::string(method_source);
+    return gl::Program(m_gl, label, gl::shader_file("scenes/scene.vert.glsl"), fragment);
+}
+
+void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
+    program.use();
+    program.set("u_view_projection", m_view_projection);
+    m_gl.BindVertexArray(m_vertex_array.id());
+    m_gl.VertexArrayElementBuffer(m_vertex_array.id(), indices.id());
+    for (std::size_t unit = 0; unit < m_textures.size(); ++unit)
+        m_gl.BindTextureUnit(static_cast<GLuint>(unit), m_textures[unit].id());
+}
+
+void Scene::draw_opaque(const gl::Program& program) const {
+    if (!has_opaque()) return;
+    bind(program, m_opaque.indices);
+    m_gl.DrawElements(GL_TRIANGLES, m_opaque_index_count, GL_UNSIGNED_INT, nullptr);
+}
+
+void Scene::draw_transparent(const gl::Program& program, Order order) const {
+    draw_transparent(program, order, 0, m_transparent_count);
+}
+
+void Scene::draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) const {
+    const DrawList& drawn = list(order);
+    bind(program, drawn.indices);
+    const std::size_t begin = drawn.first_index[first], end = drawn.first_index[first + count];
+    m_gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
+}
+
+}  // namespace sheer

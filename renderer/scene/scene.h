@@ -1,0 +1,65 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "renderer/gl/objects.h"
+#include "renderer/scene/scene_info.h"
+
+namespace sheer {
+
+enum class Order { submission, near_to_far, far_to_near };
+
+/// A scene on the device: geometry in each order, textures, and the shading `real_work`.
+///
+/// In every order, primitives of equal depth stand as if the later submitted one were nearer.
+class Scene {
+ public:
+    /// `parameters` are the normalised ones of the spec, for shading and texture.
+    Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters);
+
+    bool parallel() const { return m_parallel; }
+    std::size_t transparent_count() const { return m_transparent_count; }
+    bool has_opaque() const { return m_opaque_index_count > 0; }
+
+    /// A program that draws this scene: its vertex stage, `real_work(vec2 uv, vec4 tint)`, then `method_source` with
+    /// main(). `prolog` comes right after #version: #extension and #define lines.
+    /// main() sees: in vec2 v_uv; in vec4 v_tint; flat in uint v_primitive.
+    gl::Program make_program(std::string_view label, std::string_view method_source,
+                             const std::string& prolog = {}) const;
+
+    /// Draws with `program` (of make_program) in use; binds the vertex array and texture units 0 to 3.
+    void draw_opaque(const gl::Program& program) const;
+    void draw_transparent(const gl::Program& program, Order order) const;
+    /// `count` primitives from the `first` in this order.
+    void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) const;
+
+ private:
+    struct DrawList {
+        gl::Buffer indices;
+        std::vector<std::size_t> first_index;  ///< of each primitive, and one past the last
+    };
+    DrawList make_list(const Geometry& geometry, const std::vector<std::size_t>& order, std::string_view label) const;
+    void make_textures(const nlohmann::json& texture);
+    void bind(const gl::Program& program, const gl::Buffer& indices) const;
+    const DrawList& list(Order order) const { return m_lists[static_cast<std::size_t>(order)]; }
+
+    const gl::Functions& m_gl;
+    bool m_parallel;
+    glm::mat4 m_view_projection;
+    std::string m_shading_prolog;
+    std::size_t m_transparent_count = 0;
+    GLsizei m_opaque_index_count = 0;
+    gl::Buffer m_vertices;
+    gl::VertexArray m_vertex_array;
+    DrawList m_opaque;
+    DrawList m_lists[3];  ///< by Order
+    std::vector<gl::Texture> m_textures;
+};
+
+/// First texture unit that methods may use.
+inline constexpr GLuint first_method_texture_unit = 8;
+
+/// Begins every fragment shader.
+inline constexpr const char* glsl_version = "#version 450 core\n";
+
+}  // namespace sheer

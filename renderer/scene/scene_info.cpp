@@ -1,0 +1,46 @@
+#include "renderer/scene/scene_info.h"
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/spec/names.h"
+
+namespace sheer {
+
+std::vector<SceneInfo> make_scenes();
+
+const std::vector<SceneInfo>& all_scenes() {
+    static const std::vector<SceneInfo> scenes = make_scenes();
+    return scenes;
+}
+
+const SceneInfo* find_scene(const std::string& id) { return find_by_id(all_scenes(), id); }
+
+std::vector<Param> SceneInfo::all_parameters() const {
+    std::vector<Param> all = parameters;
+    all.push_back(Param::choice("shading", "what the fragment shader does: textures read and positions bent",
+                                default_shading,
+                                {"constant", "1-texture", "4-textures", "4-textures-math", "4x4-textures",
+                                 "4x4-textures-math"}));
+    all.push_back(Param::object("texture", "the four textures that the shading reads",
+                                {Param::choice("image", "what they show", "leaf", {"leaf", "smoke"}),
+                                 Param::integer("size", "width and height", "px", 1024, 1, 4096)}));
+    return all;
+}
+
+void Geometry::add_rect(double x0, double y0, double x1, double y1, float depth, const glm::vec4& tint, bool opaque,
+                        unsigned uv_turn) {
+    const auto primitive = static_cast<std::uint32_t>(primitives.size());
+    const auto first_vertex = static_cast<std::uint32_t>(vertices.size());
+    const std::array<glm::dvec2, 4> corners = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (unsigned i = 0; i < 4; ++i) {
+        const glm::dvec2 at(x0 + corners[i].x * (x1 - x0), y0 + corners[i].y * (y1 - y0));
+        glm::vec2 uv(corners[(i + uv_turn) % 4]);
+        if (uv_turn >= 4) uv.x = 1 - uv.x;
+        vertices.push_back({{2 * at.x - 1, 1 - 2 * at.y, depth}, uv, tint, primitive});
+    }
+    primitives.push_back({static_cast<std::uint32_t>(indices.size()), 6, depth, opaque});
+    for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) indices.push_back(first_vertex + corner);
+}
+
+}  // namespace sheer

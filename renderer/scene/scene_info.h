@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/spec/param.h"
+#include "renderer/spec/spec.h"
+
+namespace sheer {
+
+struct Vertex {
+    glm::vec3 position;   ///< before view_projection; with the identity: x right, y up, -1..1, depth 0 (near) to 1
+    glm::vec2 uv;         ///< 0..1, v down
+    glm::vec4 tint;       ///< straight colour and alpha, 0..1
+    std::uint32_t primitive;  ///< index into Geometry::primitives
+};
+
+/// What a sorted method orders: a quad, a sprite, a slice, a triangle.
+struct Primitive {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+    float depth = 0;  ///< of the centre, grows with the distance
+    bool opaque = false;
+};
+
+/// A scene on the CPU. Primitives stand in the order of submission.
+struct Geometry {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;  ///< triangles
+    std::vector<Primitive> primitives;
+    glm::mat4 view_projection{1.0f};
+    bool parallel = false;  ///< drawing the primitives in depth order is exact: none intersect, each has one depth
+
+    /// Appends a rectangle parallel to the screen: corners in fractions of the image, origin top left, y down.
+    /// `uv_turn` 0..7 picks one of the rotations and mirrorings of the texture.
+    void add_rect(double x0, double y0, double x1, double y1, float depth, const glm::vec4& tint, bool opaque,
+                  unsigned uv_turn = 0);
+};
+
+/// A scene type describes itself; the file renderer/scene/types/<id>.cpp ends with `SceneInfo scene_<id>()`.
+struct SceneInfo {
+    std::string id;
+    std::string name;
+    std::string summary;
+    std::string source;              ///< paper or "Sheer"
+    std::vector<Param> parameters;   ///< without those that every scene has, see all_parameters()
+    std::string default_shading = "constant";
+    std::function<Geometry(const nlohmann::json& scene, const ImageSpec& image)> build;
+
+    /// Its own and the ones common to all scenes: shading and texture.
+    std::vector<Param> all_parameters() const;
+};
+
+/// Every scene type, from the generated table.
+const std::vector<SceneInfo>& all_scenes();
+/// Null if there is none of this id; letter case is passed over.
+const SceneInfo* find_scene(const std::string& id);
+
+}  // namespace sheer

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sheer {
+
+/// One level of a texture: rows from the top down, 4 interleaved channels of 8 bits, straight alpha.
+struct TextureLevel {
+    int size_px = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+/// A procedural square texture with all its mipmaps, down to 1x1.
+///
+/// `image` is "leaf" (leaves with soft edges, veins and holes between them) or "smoke" (a soft cloud); `variant` 0..3
+/// gives the four different textures of a scene. Only additions, multiplications, divisions and square roots are used,
+/// so that the bytes are the same on every platform. Mipmaps are box-filtered with the colour weighted by alpha.
+/// Throws std::invalid_argument for another `image`.
+std::vector<TextureLevel> make_texture(const std::string& image, int size_px, int variant);
+
+}  // namespace sheer

@@ -1,0 +1,331 @@
+#include "renderer/spec/param.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t max_quoted_bytes = 80;
+
+std::string kind_name(Param::Kind kind) {
+    switch (kind) {
+        case Param::Kind::number: return "number";
+        case Param::Kind::integer: return "integer";
+        case Param::Kind::boolean: return "boolean";
+        case Param::Kind::choice: return "choice";
+        case Param::Kind::text: return "text";
+        case Param::Kind::numbers: return "numbers";
+        case Param::Kind::object: return "object";
+        case Param::Kind::list: return "list";
+        case Param::Kind::any: return "any";
+    }
+    throw std::logic_error("unknown kind of parameter");
+}
+
+std::string quoted(const json& value) {
+    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    if (text.size() > max_quoted_bytes) text = text.substr(0, max_quoted_bytes) + "...";
+    return text;
+}
+
+bool in_range(const Param& param, double value) {
+    if (!std::isfinite(value)) return false;
+    return param.exclusive ? value > param.min && value < param.max : value >= param.min && value <= param.max;
+}
+
+std::string range_text(const Param& param) {
+    const bool low = std::isfinite(param.min), high = std::isfinite(param.max);
+    if (low && high) return fmt::format("from {} to {}{}", param.min, param.max, param.exclusive ? ", both excluded" : "");
+    if (low) return fmt::format("{} {}", param.exclusive ? "over" : "at least", param.min);
+    if (high) return fmt::format("{} {}", param.exclusive ? "under" : "at most", param.max);
+    return "finite";
+}
+
+/// Reads one value; on an error it adds one and gives the default.
+class ValueReader {
+ public:
+    ValueReader(const Param& param, const std::string& pointer, std::vector<FieldError>& errors)
+        : m_param(param), m_pointer(pointer), m_errors(errors) {}
+
+    json read(const json& value) {
+        switch (m_param.kind) {
+            case Param::Kind::number: return number(value);
+            case Param::Kind::integer: return integer(value);
+            case Param::Kind::boolean: return value.is_boolean() ? value : wrong("must be true or false", value);
+            case Param::Kind::choice: return choice(value);
+            case Param::Kind::text: return text(value);
+            case Param::Kind::numbers: return numbers(value);
+            case Param::Kind::object: return object(value);
+            case Param::Kind::list: return list(value);
+            case Param::Kind::any: return value;
+        }
+        return value;
+    }
+
+ private:
+    json wrong(const std::string& what, const json& value) {
+        m_errors.push_back({m_pointer, fmt::format("{}, not {}", what, quoted(value))});
+        return m_param.default_value;
+    }
+
+    json number(const json& value) {
+        if (!value.is_number()) return wrong("must be a number " + range_text(m_param), value);
+        if (!in_range(m_param, value.get<double>())) return wrong("must be " + range_text(m_param), value);
+        return value.get<double>();
+    }
+
+    json integer(const json& value) {
+        const bool whole = value.is_number_integer() ||
+                           (value.is_number_float() && std::floor(value.get<double>()) == value.get<double>());
+        if (!whole) return wrong("must be a whole number " + range_text(m_param), value);
+        if (!in_range(m_param, value.get<double>())) return wrong("must be " + range_text(m_param), value);
+        return value.get<std::int64_t>();
+    }
+
+    json choice(const json& value) {
+        if (value.is_string() && std::ranges::find(m_param.choices, value.get<std::string>()) != m_param.choices.end())
+            return value;
+        return wrong(fmt::format("must be one of {}", fmt::join(m_param.choices, ", ")), value);
+    }
+
+    json text(const json& value) {
+        if (!value.is_string()) return wrong("must be a text", value);
+        const std::size_t length = value.get_ref<const std::string&>().size();
+        if (length < m_param.min_length || length > m_param.max_length)
+            return wrong(fmt::format("must have {} to {} bytes", m_param.min_length, m_param.max_length), value);
+        return value;
+    }
+
+    json numbers(const json& value) {
+        if (!value.is_array() || value.size() != m_param.max_length)
+            return wrong(fmt::format("must be an array of {} numbers", m_param.max_length), value);
+        json read_values = json::array();
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (!value[i].is_number() || !in_range(m_param, value[i].get<double>())) {
+                m_errors.push_back({fmt::format("{}/{}", m_pointer, i),
+                                    fmt::format("must be a number {}, not {}", range_text(m_param), quoted(value[i]))});
+                return m_param.default_value;
+            }
+            read_values.push_back(value[i].get<double>());
+        }
+        return read_values;
+    }
+
+    json object(const json& value) {
+        if (!value.is_object()) return wrong("must be an object", value);
+        return read_fields(value, m_pointer, m_param.fields, m_errors);
+    }
+
+    json list(const json& value) {
+        if (!value.is_array()) return wrong("must be an array", value);
+        if (value.size() < m_param.min_length || value.size() > m_param.max_length) {
+            m_errors.push_back({m_pointer, fmt::format("must have {} to {} entries, not {}", m_param.min_length,
+                                                       m_param.max_length, value.size())});
+            return json::array();
+        }
+        json entries = json::array();
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            const std::string entry_pointer = fmt::format("{}/{}", m_pointer, i);
+            if (value[i].is_object()) {
+                entries.push_back(read_fields(value[i], entry_pointer, m_param.fields, m_errors));
+            } else {
+                m_errors.push_back({entry_pointer, "must be an object, not " + quoted(value[i])});
+            }
+        }
+        return entries;
+    }
+
+    const Param& m_param;
+    const std::string& m_pointer;
+    std::vector<FieldError>& m_errors;
+};
+
+json default_of(const Param& param) {
+    if (param.kind == Param::Kind::object && param.default_value.is_null() && !param.optional) {
+        std::vector<FieldError> ignored;
+        return read_fields(json::object(), "", param.fields, ignored);
+    }
+    return param.default_value;
+}
+
+/// Whether every field of an object has a default, so that the object itself may be left out.
+bool may_be_absent(const Param& param) {
+    if (param.optional || !param.default_value.is_null()) return true;
+    return param.kind == Param::Kind::object && std::ranges::all_of(param.fields, may_be_absent);
+}
+
+json value_schema(const Param& param) {
+    json schema = json::object();
+    switch (param.kind) {
+        case Param::Kind::number: schema["type"] = "number"; break;
+        case Param::Kind::integer: schema["type"] = "integer"; break;
+        case Param::Kind::boolean: schema["type"] = "boolean"; break;
+        case Param::Kind::choice: schema["enum"] = param.choices; break;
+        case Param::Kind::text:
+            schema = {{"type", "string"}, {"minLength", param.min_length}, {"maxLength", param.max_length}};
+            break;
+        case Param::Kind::numbers:
+            schema = {{"type", "array"}, {"minItems", param.max_length}, {"maxItems", param.max_length}};
+            break;
+        case Param::Kind::object: schema = schema_of(param.fields); break;
+        case Param::Kind::list:
+            schema = {{"type", "array"}, {"minItems", param.min_length}, {"maxItems", param.max_length},
+                      {"items", schema_of(param.fields)}};
+            break;
+        case Param::Kind::any: break;
+    }
+    json range = json::object();
+    if (std::isfinite(param.min)) range[param.exclusive ? "exclusiveMinimum" : "minimum"] = param.min;
+    if (std::isfinite(param.max)) range[param.exclusive ? "exclusiveMaximum" : "maximum"] = param.max;
+    if (param.kind == Param::Kind::numbers) {
+        range["type"] = "number";
+        schema["items"] = range;
+    } else {
+        schema.update(range);
+    }
+    if (!param.default_value.is_null()) schema["default"] = param.default_value;
+    schema["description"] = param.unit.empty() ? param.summary : fmt::format("{} [{}]", param.summary, param.unit);
+    return schema;
+}
+
+}  // namespace
+
+Param Param::number(std::string name, std::string summary, std::string unit, double fallback, double min, double max) {
+    Param param{.name = std::move(name), .summary = std::move(summary), .unit = std::move(unit)};
+    param.default_value = fallback;
+    param.min = min;
+    param.max = max;
+    return param;
+}
+
+Param Param::integer(std::string name, std::string summary, std::string unit, long long fallback, double min,
+                     double max) {
+    Param param = number(std::move(name), std::move(summary), std::move(unit), 0, min, max);
+    param.kind = Kind::integer;
+    param.default_value = fallback;
+    return param;
+}
+
+Param Param::boolean(std::string name, std::string summary, bool fallback) {
+    Param param{.name = std::move(name), .kind = Kind::boolean, .summary = std::move(summary)};
+    param.default_value = fallback;
+    return param;
+}
+
+Param Param::choice(std::string name, std::string summary, std::string fallback, std::vector<std::string> choices) {
+    Param param{.name = std::move(name), .kind = Kind::choice, .summary = std::move(summary)};
+    param.default_value = std::move(fallback);
+    param.choices = std::move(choices);
+    return param;
+}
+
+Param Param::text(std::string name, std::string summary, std::string fallback, std::size_t max_length_bytes) {
+    Param param{.name = std::move(name), .kind = Kind::text, .summary = std::move(summary)};
+    param.default_value = std::move(fallback);
+    param.max_length = max_length_bytes;
+    return param;
+}
+
+Param Param::numbers(std::string name, std::string summary, std::string unit, std::vector<double> fallback, double min,
+                     double max) {
+    Param param = number(std::move(name), std::move(summary), std::move(unit), 0, min, max);
+    param.kind = Kind::numbers;
+    param.min_length = param.max_length = fallback.size();
+    param.default_value = std::move(fallback);
+    return param;
+}
+
+Param Param::object(std::string name, std::string summary, std::vector<Param> fields) {
+    Param param{.name = std::move(name), .kind = Kind::object, .summary = std::move(summary)};
+    param.fields = std::move(fields);
+    return param;
+}
+
+Param Param::list(std::string name, std::string summary, std::vector<Param> fields, std::size_t min_length,
+                  std::size_t max_length) {
+    Param param = object(std::move(name), std::move(summary), std::move(fields));
+    param.kind = Kind::list;
+    param.min_length = min_length;
+    param.max_length = max_length;
+    if (min_length == 0) param.default_value = json::array();
+    return param;
+}
+
+Param Param::required() const {
+    Param param = *this;
+    param.default_value = nullptr;
+    return param;
+}
+
+json read_fields(const json& object, const std::string& pointer, const std::vector<Param>& fields,
+                 std::vector<FieldError>& errors) {
+    json result = json::object();
+    for (const Param& param : fields) {
+        const auto found = object.find(param.name);
+        const std::string field_pointer = pointer + "/" + pointer_token(param.name);
+        if (found == object.end() || (found->is_null() && param.optional)) {
+            result[param.name] = default_of(param);
+            if (!may_be_absent(param)) errors.push_back({field_pointer, "is missing: " + param.summary});
+        } else {
+            result[param.name] = ValueReader(param, field_pointer, errors).read(*found);
+        }
+    }
+    for (const auto& [key, value] : object.items()) {
+        const bool known = std::ranges::any_of(fields, [&](const Param& param) { return param.name == key; });
+        if (known) continue;
+        std::vector<std::string> names;
+        for (const Param& param : fields) names.push_back(param.name);
+        errors.push_back(
+            {pointer + "/" + pointer_token(key), fmt::format("is not a known field; known are {}", fmt::join(names, ", "))});
+    }
+    return result;
+}
+
+json schema_of(const std::vector<Param>& fields) {
+    json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
+    for (const Param& param : fields) {
+        schema["properties"][param.name] = value_schema(param);
+        if (!may_be_absent(param)) schema["required"].push_back(param.name);
+    }
+    return schema;
+}
+
+json to_json(const std::vector<Param>& fields) {
+    json all = json::array();
+    for (const Param& param : fields) {
+        json one = {{"name", param.name}, {"kind", kind_name(param.kind)}, {"summary", param.summary},
+                    {"unit", param.unit}, {"default", default_of(param)}, {"required", !may_be_absent(param)}};
+        if (std::isfinite(param.min)) one["min"] = param.min;
+        if (std::isfinite(param.max)) one["max"] = param.max;
+        if (param.exclusive) one["exclusive"] = true;
+        if (!param.choices.empty()) one["choices"] = param.choices;
+        if (!param.fields.empty()) one["fields"] = to_json(param.fields);
+        if (param.max_length > 0) one["max_length"] = param.max_length;
+        if (param.min_length > 0) one["min_length"] = param.min_length;
+        all.push_back(one);
+    }
+    return all;
+}
+
+std::string pointer_token(const std::string& token) {
+    std::string escaped;
+    for (const char c : token) {
+        if (c == '~') {
+            escaped += "~0";
+        } else if (c == '/') {
+            escaped += "~1";
+        } else {
+            escaped += c;
+        }
+    }
+    return escaped;
+}
+
+}  // namespace sheer

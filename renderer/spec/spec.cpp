@@ -1,0 +1,334 @@
+#include "renderer/spec/spec.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "renderer/methods/method.h"
+#include "renderer/metrics/metric.h"
+#include "renderer/scene/scene_info.h"
+#include "renderer/spec/names.h"
+#include "renderer/spec/param.h"
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t max_methods = 64, max_tags = 32, max_text_bytes = 200;
+
+Param optional_number(std::string name, std::string summary) {
+    Param param{.name = std::move(name), .summary = std::move(summary)};
+    param.optional = true;
+    return param;
+}
+
+Param any(std::string name, std::string summary, json fallback) {
+    Param param{.name = std::move(name), .kind = Param::Kind::any, .summary = std::move(summary)};
+    param.default_value = std::move(fallback);
+    return param;
+}
+
+Param optional_text(std::string name, std::string summary) {
+    Param param = Param::text(std::move(name), std::move(summary), "", max_text_bytes);
+    param.default_value = nullptr;
+    param.optional = true;
+    return param;
+}
+
+std::vector<Param> check_fields() {
+    Param metric = Param::text("metric", "what is held: a number of the report such as flip.mean, rmse or speedup", "",
+                               max_text_bytes);
+    Param method = Param::text("method", "label or id of a method", "", max_text_bytes);
+    return {metric.required(), method.required(), optional_number("min", "least value that passes"),
+            optional_number("max", "greatest value that passes")};
+}
+
+/// The fields of a spec; scene, methods and reference are read by their own descriptions.
+std::vector<Param> spec_fields() {
+    return {
+        Param::text("title", "shown with the report", "", max_text_bytes),
+        any("tags", "names and texts to find the report by", json::object()),
+        Param::object("image", "the picture that is rendered",
+                      {Param::integer("width", "", "px", 512, 1, 4096), Param::integer("height", "", "px", 512, 1, 4096),
+                       Param::numbers("background", "red, green, blue behind everything", "", {0, 0, 0}, 0, 1),
+                       Param::choice("format", "what the methods blend into", "rgba8", {"rgba8", "rgba16f", "rgba32f"})}),
+        any("scene", "an object with the type of the scene and its parameters", nullptr),
+        any("methods", "an array of method ids, or of objects with id, label and parameters", nullptr),
+        any("reference", "the method that the others are held against for differences", "exact"),
+        optional_text("baseline", "label or id of the method that speed is held against; b2f, else the first"),
+        Param::object("timing", "how long each method is timed",
+                      {Param::integer("warmup", "frames before timing", "frames", 1, 1, 100),
+                       Param::integer("rounds", "timed frames of each method", "frames", 10, 1, 1000),
+                       Param::number("max_seconds", "no round begins after this", "s", 60, 0.001, 3600)}),
+        Param::list("checks", "what must hold for the report to pass", check_fields(), 0, 256),
+    };
+}
+
+PixelFormat pixel_format(const std::string& name) {
+    if (name == "rgba8") return PixelFormat::rgba8;
+    return name == "rgba16f" ? PixelFormat::rgba16f : PixelFormat::rgba32f;
+}
+
+std::vector<std::string> metric_names() {
+    std::vector<std::string> names = {"speedup", "timing.median", "timing.min", "timing.p95"};
+    for (const MetricInfo& metric : all_metrics())
+        for (const MetricField& field : metric.fields)
+            names.push_back(field.name.empty() ? metric.id : metric.id + "." + field.name);
+    return names;
+}
+
+class SpecReader {
+ public:
+    Spec read(const json& document) {
+        if (!document.is_object()) throw SpecError({{"", "a spec must be a JSON object"}});
+        Spec spec;
+        spec.normalised = read_fields(document, "", spec_fields(), m_errors);
+        json& normalised = spec.normalised;
+        spec.title = normalised["title"];
+        check_tags(normalised["tags"]);
+        read_image(normalised["image"], spec.image);
+        read_scene(document, spec);
+        read_methods(document, spec);
+        spec.reference = read_method(normalised["reference"], "/reference");
+        normalised["reference"] = method_json(spec.reference);
+        normalised["reference"].erase("label");
+        if (m_errors.empty() || !spec.methods.empty()) {
+            read_baseline(spec);
+            read_checks(spec);
+        }
+        const json& timing = normalised["timing"];
+        spec.timing = {timing["warmup"], timing["rounds"], timing["max_seconds"]};
+        if (!m_errors.empty()) throw SpecError(std::move(m_errors));
+        return spec;
+    }
+
+ private:
+    void error(const std::string& pointer, const std::string& detail) { m_errors.push_back({pointer, detail}); }
+
+    void check_tags(const json& tags) {
+        if (!tags.is_object() || tags.size() > max_tags) {
+            error("/tags", fmt::format("must be an object of at most {} texts", max_tags));
+            return;
+        }
+        for (const auto& [name, value] : tags.items()) {
+            if (!value.is_string() || value.get_ref<const std::string&>().size() > max_text_bytes)
+                error("/tags/" + pointer_token(name), fmt::format("must be a text of at most {} bytes", max_text_bytes));
+        }
+    }
+
+    static void read_image(const json& image, ImageSpec& out) {
+        out.width_px = image["width"];
+        out.height_px = image["height"];
+        out.background = image["background"].get<std::array<float, 3>>();
+        out.format = pixel_format(image["format"]);
+    }
+
+    void read_scene(const json& document, Spec& spec) {
+        if (!document.contains("scene")) return error("/scene", "is missing: an object with type and parameters");
+        json scene = document["scene"];
+        if (!scene.is_object()) return error("/scene", "must be an object with type and parameters");
+        if (!scene.contains("type") || !scene["type"].is_string())
+            return error("/scene/type", "must be one of " + joined_ids(all_scenes()));
+        const SceneInfo* info = find_scene(scene["type"]);
+        if (info == nullptr)
+            return error("/scene/type", fmt::format("must be one of {}, not \"{}\"", joined_ids(all_scenes()),
+                                                    scene["type"].get<std::string>()));
+        scene.erase("type");
+        spec.scene_type = info->id;
+        spec.scene = read_fields(scene, "/scene", info->all_parameters(), m_errors);
+        spec.scene["type"] = info->id;
+        spec.normalised["scene"] = spec.scene;
+    }
+
+    /// `value` is an id, or an object with id, label and parameters.
+    MethodSpec read_method(const json& value, const std::string& pointer) {
+        json parameters = value.is_object() ? value : json{{"id", value}};
+        const bool has_id = parameters.contains("id") && parameters["id"].is_string();
+        const std::string id_pointer = value.is_object() ? pointer + "/id" : pointer;
+        if (!has_id) {
+            error(id_pointer, "must be a method id or an object with one; known are " + joined_ids(all_methods()));
+            return {};
+        }
+        const MethodInfo* info = find_method(parameters["id"]);
+        if (info == nullptr) {
+            error(id_pointer, fmt::format("there is no method \"{}\"; known are {}", parameters["id"].get<std::string>(),
+                                          joined_ids(all_methods())));
+            return {};
+        }
+        MethodSpec method{info->id, read_label(parameters, pointer), {}};
+        parameters.erase("id");
+        parameters.erase("label");
+        method.parameters = read_fields(parameters, pointer, info->parameters, m_errors);
+        return method;
+    }
+
+    std::string read_label(const json& parameters, const std::string& pointer) {
+        if (!parameters.contains("label")) return "";
+        const json& label = parameters["label"];
+        if (label.is_string() && !label.get_ref<const std::string&>().empty() &&
+            label.get_ref<const std::string&>().size() <= max_text_bytes)
+            return label;
+        error(pointer + "/label", fmt::format("must be a text of 1 to {} bytes", max_text_bytes));
+        return "";
+    }
+
+    static json method_json(const MethodSpec& method) {
+        json object = method.parameters.is_object() ? method.parameters : json::object();
+        object["id"] = method.id;
+        object["label"] = method.label;
+        return object;
+    }
+
+    void read_methods(const json& document, Spec& spec) {
+        if (!document.contains("methods")) return error("/methods", "is missing: an array of methods");
+        const json& methods = document["methods"];
+        if (!methods.is_array() || methods.empty() || methods.size() > max_methods)
+            return error("/methods", fmt::format("must be an array of 1 to {} methods", max_methods));
+        for (std::size_t i = 0; i < methods.size(); ++i)
+            spec.methods.push_back(read_method(methods[i], fmt::format("/methods/{}", i)));
+        set_labels(spec.methods);
+        spec.normalised["methods"] = json::array();
+        for (const MethodSpec& method : spec.methods) spec.normalised["methods"].push_back(method_json(method));
+    }
+
+    /// Labels that are given must be unique; the others are the id, numbered where that is taken.
+    void set_labels(std::vector<MethodSpec>& methods) {
+        std::vector<std::string> taken;
+        const auto is_taken = [&](const std::string& label) { return std::ranges::find(taken, label) != taken.end(); };
+        for (std::size_t i = 0; i < methods.size(); ++i) {
+            if (methods[i].label.empty()) continue;
+            if (is_taken(methods[i].label))
+                error(fmt::format("/methods/{}/label", i), fmt::format("\"{}\" is taken by another method", methods[i].label));
+            taken.push_back(methods[i].label);
+        }
+        for (MethodSpec& method : methods) {
+            if (!method.label.empty() || method.id.empty()) continue;
+            method.label = method.id;
+            for (int number = 2; is_taken(method.label); ++number) method.label = fmt::format("{} {}", method.id, number);
+            taken.push_back(method.label);
+        }
+    }
+
+    /// The label of the method that `name` means: a label, or the id of one. "" after adding an error.
+    std::string resolve_method(const Spec& spec, const std::string& name, const std::string& pointer) {
+        for (const MethodSpec& method : spec.methods)
+            if (method.label == name) return method.label;
+        for (const MethodSpec& method : spec.methods)
+            if (method.id == lower_case(name)) return method.label;
+        error(pointer, fmt::format("\"{}\" is neither label nor id of one of the methods", name));
+        return "";
+    }
+
+    void read_baseline(Spec& spec) {
+        json& baseline = spec.normalised["baseline"];
+        if (!baseline.is_null()) {
+            spec.baseline = resolve_method(spec, baseline, "/baseline");
+        } else if (!spec.methods.empty()) {
+            const auto b2f = std::ranges::find(spec.methods, "b2f", &MethodSpec::id);
+            spec.baseline = (b2f != spec.methods.end() ? *b2f : spec.methods.front()).label;
+        }
+        baseline = spec.baseline;
+    }
+
+    void read_checks(Spec& spec) {
+        const std::vector<std::string> names = metric_names();
+        json& checks = spec.normalised["checks"];
+        for (std::size_t i = 0; i < checks.size(); ++i) {
+            const std::string pointer = fmt::format("/checks/{}", i);
+            json& check = checks[i];
+            if (!check["metric"].is_string() || !check["method"].is_string()) continue;
+            if (std::ranges::find(names, check["metric"].get<std::string>()) == names.end())
+                error(pointer + "/metric", fmt::format("must be one of {}", fmt::join(names, ", ")));
+            if (check["min"].is_null() && check["max"].is_null())
+                error(pointer, "needs a min or a max");
+            check["method"] = resolve_method(spec, check["method"], pointer + "/method");
+            spec.checks.push_back({check["metric"], check["method"], check["min"], check["max"]});
+        }
+    }
+
+    std::vector<FieldError> m_errors;
+};
+
+}  // namespace
+
+Spec parse_spec(const json& document) { return SpecReader().read(document); }
+
+Spec parse_spec_text(const std::string& text) {
+    try {
+        return parse_spec(json::parse(text));
+    } catch (const json::parse_error& error) {
+        throw SpecError({{"", fmt::format("is not JSON: {}", error.what())}});
+    }
+}
+
+json spec_schema() {
+    json schema = schema_of(spec_fields());
+    schema["required"] = {"scene", "methods"};
+    json scenes = json::array(), methods = json::array();
+    for (const SceneInfo& scene : all_scenes()) {
+        json one = schema_of(scene.all_parameters());
+        one["title"] = scene.name;
+        one["description"] = scene.summary;
+        one["properties"]["type"] = {{"const", scene.id}};
+        one["required"].push_back("type");
+        scenes.push_back(one);
+    }
+    json ids = json::array();
+    for (const MethodInfo& method : all_methods()) {
+        ids.push_back(method.id);
+        json one = schema_of(method.parameters);
+        one["title"] = method.name;
+        one["description"] = method.summary;
+        one["properties"]["id"] = {{"const", method.id}};
+        one["properties"]["label"] = {{"type", "string"}, {"minLength", 1}, {"maxLength", max_text_bytes}};
+        one["required"].push_back("id");
+        methods.push_back(one);
+    }
+    methods.push_back({{"enum", ids}});
+    json& properties = schema["properties"];
+    properties["tags"]["type"] = "object";
+    properties["tags"]["additionalProperties"] = {{"type", "string"}, {"maxLength", max_text_bytes}};
+    properties["scene"]["oneOf"] = scenes;
+    properties["reference"]["oneOf"] = methods;
+    properties["methods"].update({{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods},
+                                  {"items", {{"oneOf", methods}}}});
+    return schema;
+}
+
+json describe_methods() {
+    json all = json::array();
+    for (const MethodInfo& method : all_methods()) {
+        all.push_back({{"id", method.id}, {"name", method.name}, {"kind", method.kind}, {"summary", method.summary},
+                       {"paper", method.paper}, {"good_at", method.good_at}, {"bad_at", method.bad_at},
+                       {"memory", method.memory}, {"needs_sorting", method.needs_sorting},
+                       {"parameters", to_json(method.parameters)},
+                       {"no_metrics_reason", method.no_metrics_reason.empty() ? json() : json(method.no_metrics_reason)}});
+    }
+    return all;
+}
+
+json describe_scenes() {
+    json all = json::array();
+    for (const SceneInfo& scene : all_scenes()) {
+        all.push_back({{"id", scene.id}, {"name", scene.name}, {"summary", scene.summary}, {"source", scene.source},
+                       {"parameters", to_json(scene.all_parameters())}});
+    }
+    return all;
+}
+
+json describe_metrics() {
+    json all = json::array();
+    for (const MetricInfo& metric : all_metrics()) {
+        json fields = json::array();
+        for (const MetricField& field : metric.fields)
+            fields.push_back({{"name", field.name}, {"unit", field.unit}, {"range", field.range}, {"summary", field.summary}});
+        all.push_back({{"id", metric.id}, {"name", metric.name}, {"summary", metric.summary}, {"source", metric.source},
+                       {"picture", metric.picture}, {"fields", fields}});
+    }
+    return all;
+}
+
+}  // namespace sheer

@@ -1,0 +1,21 @@
+#version 450 core
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec2 a_uv;
+layout(location = 2) in vec4 a_tint;
+layout(location = 3) in uint a_primitive;
+
+uniform mat4 u_view_projection;
+
+out vec2 v_uv;
+out vec4 v_tint;
+flat out uint v_primitive;
+
+// Passes that are drawn with different programs must meet at equal depths.
+invariant gl_Position;
+
+void main() {
+    gl_Position = u_view_projection * vec4(a_position, 1.0);
+    v_uv = a_uv;
+    v_tint = a_tint;
+    v_primitive = a_primitive;
+}
