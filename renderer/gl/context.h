@@ -10,6 +10,8 @@
 
 namespace sheer::gl {
 
+class DebugLog;
+
 /// What a context runs on, as the report's `device` says it.
 struct DeviceInfo {
     std::string context;  ///< "egl", "osmesa" or "glfw"
@@ -18,23 +20,26 @@ struct DeviceInfo {
     std::string renderer, vendor, gl_version, glsl_version;
     std::string platform;   ///< how the context was made, e.g. "EGL device", "EGL surfaceless"
     bool software = false;  ///< a software rasteriser (llvmpipe, softpipe, swr): times do not predict a GPU
-    std::vector<std::string> extensions;
+    std::vector<std::string> extensions;  ///< sorted
 };
 
 /// Which context to make. "auto" tries EGL, then OSMesa.
 struct ContextRequest {
     std::string context = "auto";  ///< auto, egl, osmesa, glfw
-    std::string device;            ///< empty for the first that works; else an index or a part of the renderer's name
+    /// Empty for the first GPU, else the first software renderer; or an index, a name as of list_devices() ("egl:1"),
+    /// or a part of the renderer's name without regard to case.
+    std::string device;
     std::vector<std::string> disabled_workarounds;  ///< names of workarounds.h
 };
 
 /// A current OpenGL 4.5 core context. Move-only by unique_ptr; destroyed with its window system objects.
 ///
-/// KHR_debug messages go to the log with the labels of the objects; one of high severity, or of type error, is kept and
-/// thrown as RenderError by `check()`.
+/// KHR_debug messages go to the log; one of high severity, or of type error, is kept and thrown as RenderError by
+/// `check()`, with the labels of the objects that it speaks of: see debug_log.h. Contexts of every kind can live side
+/// by side; destroying one may leave none current, so make the next one current before it is used.
 class Context {
   public:
-    virtual ~Context() = default;
+    virtual ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
@@ -51,31 +56,33 @@ class Context {
     void check(std::string_view where) const;
 
   protected:
-    Context() = default;
+    Context();
     /// Called by each implementation once its context is current: loads the functions, reads the device's strings,
     /// turns debug output on, picks the workarounds. Throws RenderError if it is not at least OpenGL 4.5.
     void initialize(const Resolver& resolve, DeviceInfo device, const ContextRequest& request);
 
   private:
-    struct DebugLog;
     Functions m_gl;
     DeviceInfo m_device;
     Workarounds m_workarounds;
-    std::shared_ptr<DebugLog> m_debug_log;
+    std::unique_ptr<DebugLog> m_debug_log;
 };
 
-/// Throws Unsupported with the reason of each thing tried if no such context can be had, e.g. GLFW without a display.
+/// Throws Unsupported with the reason of each thing tried if no such context can be had, e.g. GLFW without a display;
+/// std::invalid_argument for a kind or a workaround that does not exist. The new context is current.
 std::unique_ptr<Context> create_context(const ContextRequest& request);
 
 /// What can be rendered on here: every EGL device and the surfaceless platform, OSMesa, GLFW where there is a display.
 /// A kind that cannot be had is listed with `error` in place of the strings, so that the user sees why.
+/// It makes a context of each, so no context is current afterwards.
 struct ListedDevice {
     DeviceInfo info;
     std::optional<std::string> error;
 };
 std::vector<ListedDevice> list_devices();
 
-/// The objects of GET /devices and of a report's `device` (without cpu, which is not GL's to say).
+/// The objects of GET /devices and of a report's `device` (without cpu, which is not GL's to say, and without the
+/// extensions, which are hundreds).
 nlohmann::json to_json(const DeviceInfo& info);
 
 }  // namespace sheer::gl

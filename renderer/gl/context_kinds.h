@@ -1,0 +1,27 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "renderer/gl/context.h"
+
+namespace sheer::gl {
+
+/// How much to expect of a candidate before its context is made.
+enum class Expectation { gpu, software, last_resort };
+
+/// A place where a context could be made.
+struct Candidate {
+    DeviceInfo info;  ///< context, index, name and platform only
+    Expectation expectation = Expectation::software;
+    /// The new context is current. Throws an exception with the reason if there is none to be had.
+    std::function<std::unique_ptr<Context>(const DeviceInfo&, const ContextRequest&)> create;
+};
+
+/// The candidates of each kind, in the order of their index. None of these throws for what the machine lacks: that is
+/// for `create`, so that a user sees the reason.
+std::vector<Candidate> egl_candidates();
+std::vector<Candidate> osmesa_candidates();
+std::vector<Candidate> glfw_candidates();
+
+}  // namespace sheer::gl

@@ -1,0 +1,160 @@
+#include "renderer/gl/debug_log.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <regex>
+
+#include "renderer/errors.h"
+
+namespace sheer::gl {
+namespace {
+
+/// Of a thousand errors of one loop the first few say it all.
+constexpr std::size_t max_kept = 16;
+
+struct Noun {
+    std::string_view word;
+    GLenum identifier;
+    PFNGLISBUFFERPROC Functions::*exists;
+};
+
+constexpr std::array nouns{
+    Noun{"buffer", GL_BUFFER, &Functions::IsBuffer},
+    Noun{"texture", GL_TEXTURE, &Functions::IsTexture},
+    Noun{"framebuffer", GL_FRAMEBUFFER, &Functions::IsFramebuffer},
+    Noun{"renderbuffer", GL_RENDERBUFFER, &Functions::IsRenderbuffer},
+    Noun{"program", GL_PROGRAM, &Functions::IsProgram},
+    Noun{"shader", GL_SHADER, &Functions::IsShader},
+    Noun{"query", GL_QUERY, &Functions::IsQuery},
+    Noun{"sampler", GL_SAMPLER, &Functions::IsSampler},
+    Noun{"vertex array", GL_VERTEX_ARRAY, &Functions::IsVertexArray},
+};
+
+std::string label_of(const Functions& gl, std::string word, const std::string& number) {
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    GLuint id = 0;
+    const char* end = number.data() + number.size();
+    if (std::from_chars(number.data(), end, id).ec != std::errc{}) return {};
+    for (const Noun& noun : nouns) {
+        if (noun.word != word || (gl.*noun.exists)(id) == GL_FALSE) continue;
+        std::array<GLchar, 256> label{};
+        GLsizei length = 0;
+        gl.GetObjectLabel(noun.identifier, id, static_cast<GLsizei>(label.size()), &length, label.data());
+        return {label.data(), static_cast<std::size_t>(length)};
+    }
+    return {};
+}
+
+/// The message with the label after each object that it speaks of by number: "program 3" to "program 3 'blend'".
+std::string with_labels(const Functions& gl, const std::string& message) {
+    const std::regex object(
+        "(buffer|texture|framebuffer|renderbuffer|program|shader|query|sampler|vertex array)"
+        "(?: object)?[ =(]+([0-9]+)",
+        std::regex::icase);
+    std::string text;
+    auto rest = message.cbegin();
+    for (std::sregex_iterator match(message.begin(), message.end(), object), end; match != end; ++match) {
+        text.append(rest, (*match)[0].second);
+        rest = (*match)[0].second;
+        const std::string label = label_of(gl, (*match)[1], (*match)[2]);
+        if (!label.empty()) text += fmt::format(" '{}'", label);
+    }
+    return text.append(rest, message.cend());
+}
+
+std::string error_name(GLenum error) {
+    switch (error) {
+        case GL_INVALID_ENUM:
+            return "GL_INVALID_ENUM";
+        case GL_INVALID_VALUE:
+            return "GL_INVALID_VALUE";
+        case GL_INVALID_OPERATION:
+            return "GL_INVALID_OPERATION";
+        case GL_INVALID_FRAMEBUFFER_OPERATION:
+            return "GL_INVALID_FRAMEBUFFER_OPERATION";
+        case GL_OUT_OF_MEMORY:
+            return "GL_OUT_OF_MEMORY";
+        case GL_STACK_OVERFLOW:
+            return "GL_STACK_OVERFLOW";
+        case GL_STACK_UNDERFLOW:
+            return "GL_STACK_UNDERFLOW";
+        case GL_CONTEXT_LOST:
+            return "GL_CONTEXT_LOST";
+        default:
+            return fmt::format("GL error {:#06x}", error);
+    }
+}
+
+/// A driver may hold one flag per kind of error, and a lost context never runs out of them.
+std::vector<std::string> take_errors(const Functions& gl) {
+    std::vector<std::string> names;
+    while (names.size() < max_kept) {
+        const GLenum error = gl.GetError();
+        if (error == GL_NO_ERROR) break;
+        names.push_back(error_name(error));
+    }
+    return names;
+}
+
+spdlog::level::level_enum level_of(GLenum type, GLenum severity) {
+    if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH) return spdlog::level::err;
+    // Performance hints come by the frame; they are for whoever looks for them.
+    if (type == GL_DEBUG_TYPE_PERFORMANCE) return spdlog::level::debug;
+    if (severity == GL_DEBUG_SEVERITY_MEDIUM) return spdlog::level::warn;
+    return severity == GL_DEBUG_SEVERITY_LOW ? spdlog::level::info : spdlog::level::trace;
+}
+
+}  // namespace
+
+void DebugLog::attach(const Functions& gl) {
+    gl.Enable(GL_DEBUG_OUTPUT);
+    gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    gl.DebugMessageCallback(&DebugLog::on_message, this);
+    gl.DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+    gl.DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DEBUG_SEVERITY_NOTIFICATION, 0, nullptr, GL_FALSE);
+    // Notifications too, but these say where the others come from.
+    for (GLenum type : {GL_DEBUG_TYPE_PUSH_GROUP, GL_DEBUG_TYPE_POP_GROUP}) {
+        gl.DebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+    }
+}
+
+void APIENTRY DebugLog::on_message(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length,
+                                   const GLchar* message, const void* user) {
+    const std::size_t size = length < 0 ? std::strlen(message) : static_cast<std::size_t>(length);
+    // GL hands the pointer of attach() back as a pointer to const.
+    auto* log = static_cast<DebugLog*>(const_cast<void*>(user));
+    log->add(source, type, severity, {message, size});
+}
+
+void DebugLog::add(GLenum source, GLenum type, GLenum severity, std::string_view message) {
+    if (type == GL_DEBUG_TYPE_PUSH_GROUP) {
+        m_groups.emplace_back(message);
+        return;
+    }
+    if (type == GL_DEBUG_TYPE_POP_GROUP) {
+        if (!m_groups.empty()) m_groups.pop_back();
+        return;
+    }
+    while (!message.empty() && (message.back() == '\n' || message.back() == '\0')) message.remove_suffix(1);
+    std::string text = fmt::format("{}{}{}", fmt::join(m_groups, " / "), m_groups.empty() ? "" : ": ", message);
+    const bool compiler = source == GL_DEBUG_SOURCE_SHADER_COMPILER;
+    const auto level = compiler ? spdlog::level::debug : level_of(type, severity);
+    spdlog::log(level, "{}: {}", m_name, text);
+    if (level == spdlog::level::err && m_kept.size() < max_kept) m_kept.push_back(std::move(text));
+}
+
+void DebugLog::check(const Functions& gl, std::string_view where) {
+    // The messages say more than the errors that go with them.
+    std::vector<std::string> reasons = take_errors(gl);
+    if (!m_kept.empty()) reasons = std::exchange(m_kept, {});
+    if (reasons.empty()) return;
+    for (std::string& reason : reasons) reason = with_labels(gl, reason);
+    throw RenderError(fmt::format("{}: {}", where, fmt::join(reasons, "; ")));
+}
+
+}  // namespace sheer::gl

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/gl/functions.h"
+
+namespace sheer::gl {
+
+/// What KHR_debug says about one context.
+///
+/// Each message goes to the log at once, after the debug groups that it was raised in. One of high severity, or of type
+/// error, is kept for check(), which also names the objects that it speaks of. GL may not be called from within its own
+/// callback, so the log has the objects' numbers only. What a shader's compiler says is not kept: whoever compiles it
+/// asks for the outcome and the text.
+class DebugLog {
+  public:
+    /// `name` stands before each line in the log.
+    explicit DebugLog(std::string name) : m_name(std::move(name)) {}
+    DebugLog(const DebugLog&) = delete;
+    DebugLog& operator=(const DebugLog&) = delete;
+
+    /// Directs the messages of the current context here; this object must outlive the context.
+    void attach(const Functions& gl);
+
+    /// Throws RenderError with the messages kept since the last call, or with what glGetError says. `where` comes
+    /// first in its text. The messages and the errors are forgotten.
+    void check(const Functions& gl, std::string_view where);
+
+  private:
+    static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                    const GLchar* message, const void* user);
+    void add(GLenum source, GLenum type, GLenum severity, std::string_view message);
+
+    std::string m_name;
+    std::vector<std::string> m_groups;  ///< the debug groups now open, outermost first
+    std::vector<std::string> m_kept;
+};
+
+}  // namespace sheer::gl

@@ -1,0 +1,100 @@
+#include "renderer/gl/timer.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "renderer/gl/objects.h"
+
+namespace sheer::gl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Below this the constant cost of a query and of the two glFinish is more than the tolerance.
+constexpr double min_comparable_ms = 5;
+constexpr double clock_tolerance = 0.1;
+
+bool clocks_agree(const FrameSample& sample) {
+    if (sample.wall_ms <= min_comparable_ms) return true;
+    return std::abs(sample.gpu_ms - sample.wall_ms) <= clock_tolerance * sample.wall_ms;
+}
+
+}  // namespace
+
+struct FrameTimer::State {
+    const Functions& gl;
+    const bool flush_after_begin;
+    std::vector<Query> queries;  ///< one for each pass of the longest frame so far
+    FrameSample sample;
+    Clock::time_point start;
+    bool in_frame = false;
+    bool in_pass = false;
+    bool timed = false;
+
+    void begin_query() {
+        const std::size_t number = sample.passes.size() - 1;
+        if (number == queries.size()) queries.push_back(make_query(gl, "pass time", GL_TIME_ELAPSED));
+        gl.BeginQuery(GL_TIME_ELAPSED, queries[number].id());
+        if (flush_after_begin) gl.Flush();
+    }
+
+    void read_clocks() {
+        sample.wall_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        for (std::size_t i = 0; i < sample.passes.size(); ++i) {
+            GLuint64 elapsed_ns = 0;
+            gl.GetQueryObjectui64v(queries[i].id(), GL_QUERY_RESULT, &elapsed_ns);
+            sample.passes[i].gpu_ms = static_cast<double>(elapsed_ns) * 1e-6;
+            sample.gpu_ms += sample.passes[i].gpu_ms;
+        }
+        sample.valid = clocks_agree(sample);
+    }
+};
+
+FrameTimer::FrameTimer(const Context& context)
+    : m_state(new State{context.gl(), context.workarounds().has("flush-timer-queries"), {}, {}, {}}) {}
+
+FrameTimer::~FrameTimer() = default;
+
+FrameTimer::Pass::Pass(Pass&& other) noexcept : m_timer(std::exchange(other.m_timer, nullptr)) {}
+
+FrameTimer::Pass::~Pass() {
+    if (m_timer != nullptr) m_timer->end_pass();
+}
+
+void FrameTimer::begin_frame(bool timed) {
+    if (m_state->in_frame) throw std::logic_error("begin_frame within a frame");
+    m_state->in_frame = true;
+    m_state->timed = timed;
+    m_state->sample = {};
+    if (!timed) return;
+    m_state->gl.Finish();
+    m_state->start = Clock::now();
+}
+
+FrameTimer::Pass FrameTimer::pass(std::string name, Phase phase) {
+    if (!m_state->in_frame) throw std::logic_error("pass outside of a frame: " + name);
+    if (m_state->in_pass) throw std::logic_error("pass within a pass: " + name);
+    const auto size = static_cast<GLsizei>(std::min(name.size(), max_label_bytes));
+    m_state->gl.PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, size, name.data());
+    m_state->in_pass = true;
+    m_state->sample.passes.push_back({std::move(name), phase, 0});
+    if (m_state->timed) m_state->begin_query();
+    return Pass(this);
+}
+
+void FrameTimer::end_pass() {
+    if (m_state->timed) m_state->gl.EndQuery(GL_TIME_ELAPSED);
+    m_state->gl.PopDebugGroup();
+    m_state->in_pass = false;
+}
+
+FrameSample FrameTimer::end_frame() {
+    if (!m_state->in_frame || m_state->in_pass) throw std::logic_error("end_frame outside of a frame or within a pass");
+    m_state->in_frame = false;
+    m_state->gl.Finish();
+    if (m_state->timed) m_state->read_clocks();
+    return std::exchange(m_state->sample, {});
+}
+
+}  // namespace sheer::gl
