@@ -1,8 +1,12 @@
 #include "renderer/gl/timer.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "renderer/gl/objects.h"
 
@@ -20,12 +24,35 @@ bool clocks_agree(const FrameSample& sample) {
     return std::abs(sample.gpu_ms - sample.wall_ms) <= clock_tolerance * sample.wall_ms;
 }
 
+/// Where the stamps of `flush-timer-queries` are rasterised. The begin of a query is stamped per tile of the
+/// framebuffer that the driver saw in use last, which may have no tile at all: then there is no stamp, and the result
+/// is the time since the machine started. A clear of this one makes it the last, and leaves GL's own binding alone.
+class StampTarget {
+  public:
+    explicit StampTarget(const Functions& gl) : m_gl(gl), m_color(make_texture_2d(gl, "timer stamps", GL_RGBA8, 1, 1)) {
+        const std::array colors{m_color.id()};
+        m_framebuffer = make_framebuffer(gl, "timer stamps", colors, 0);
+    }
+
+    void use() const {
+        constexpr std::array<GLfloat, 4> black{};
+        m_gl.ClearNamedFramebufferfv(m_framebuffer.id(), GL_COLOR, 0, black.data());
+    }
+
+  private:
+    const Functions& m_gl;
+    Texture m_color;
+    Framebuffer m_framebuffer;
+};
+
 }  // namespace
 
 struct FrameTimer::State {
+    explicit State(const Functions& functions) : gl(functions) {}
+
     const Functions& gl;
-    const bool flush_after_begin;
-    std::vector<Query> queries;  ///< one for each pass of the longest frame so far
+    std::optional<StampTarget> stamps;  ///< only with the workaround
+    std::vector<Query> queries;         ///< one for each pass of the longest frame so far
     FrameSample sample;
     Clock::time_point start;
     bool in_frame = false;
@@ -35,8 +62,9 @@ struct FrameTimer::State {
     void begin_query() {
         const std::size_t number = sample.passes.size() - 1;
         if (number == queries.size()) queries.push_back(make_query(gl, "pass time", GL_TIME_ELAPSED));
+        if (stamps) stamps->use();
         gl.BeginQuery(GL_TIME_ELAPSED, queries[number].id());
-        if (flush_after_begin) gl.Flush();
+        if (stamps) gl.Flush();
     }
 
     void read_clocks() {
@@ -51,8 +79,9 @@ struct FrameTimer::State {
     }
 };
 
-FrameTimer::FrameTimer(const Context& context)
-    : m_state(new State{context.gl(), context.workarounds().has("flush-timer-queries"), {}, {}, {}}) {}
+FrameTimer::FrameTimer(const Context& context) : m_state(new State(context.gl())) {
+    if (context.workarounds().has("flush-timer-queries")) m_state->stamps.emplace(context.gl());
+}
 
 FrameTimer::~FrameTimer() = default;
 

@@ -21,8 +21,10 @@ constexpr std::array workarounds{
     Workaround{
         "flush-timer-queries",
         "llvmpipe stamps the begin of a GL_TIME_ELAPSED query once per rasterised tile, and a later tile overwrites "
-        "the stamp of an earlier one, so that a query around a frame of 835 ms gave 25.8 ms. A glFlush right after "
-        "the begin puts the stamp into a batch of its own, which is rasterised before the pass begins.",
+        "the stamp of an earlier one, so that a query around a frame of 835 ms gave 25.8 ms; with a framebuffer of no "
+        "tile there is no stamp and the query gives the time since the machine started. A glFlush right after the "
+        "begin, with a framebuffer of one pixel in use, puts one stamp into a batch of its own, which is rasterised "
+        "before the pass begins.",
         is_llvmpipe,
     },
 };
