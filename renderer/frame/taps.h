@@ -20,7 +20,12 @@ Taps<Radius> gaussian_taps(double sigma_px, int cut = Radius) {
         sum += k == 0 ? weights[k] : 2 * weights[k];
     }
     Taps<Radius> taps{};
-    for (int k = 0; k <= cut; ++k) taps[k] = float(weights[k] / sum);
+    double others = 0;
+    for (int k = 1; k <= cut; ++k) {
+        taps[k] = float(weights[k] / sum);
+        others += 2.0 * taps[k];
+    }
+    taps[0] = float(1 - others);  // takes up the rounding of the others, so that constants pass unchanged
     return taps;
 }
 

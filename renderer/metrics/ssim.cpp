@@ -30,10 +30,12 @@ constexpr int source_height = tile_height + 2 * radius;
 using Row = std::array<float, tile_width>;
 using SourceRow = std::array<float, source_width>;
 
-/// Room for one thread: the moments of a tile, filtered along rows. SSIM needs the variances only as their sum.
+/// Room for one thread. Instead of the moments of x and y, those of s = x + y and d = x - y are taken:
+/// 2 cov(x, y) = (var s - var d) / 2 and var x + var y = (var s + var d) / 2, and so for the means. Where the pictures
+/// are nearly alike d is small and exact, and the rounding of var s cancels between numerator and denominator.
 struct Scratch {
-    SourceRow one, two, squares, product;
-    std::array<Row, source_height> mean_one, mean_two, mean_squares, mean_product;
+    SourceRow sum, difference, sum_squared, difference_squared;
+    std::array<Row, source_height> sum_x, difference_x, sum_squared_x, difference_squared_x;  ///< filtered along rows
 };
 
 /// The windows' centres, and the windows' shape.
@@ -53,8 +55,8 @@ struct Windows {
     }
 };
 
-/// Levels around 0, so that the moments lose fewer bits; a shift leaves variances as they are.
-constexpr float middle = 128;
+/// The sum is kept around 0, so that its square loses fewer bits; a shift leaves the variance as it is.
+constexpr float middle = 255;
 
 struct Tile {
     int left, top, width, height;  ///< of the centres, px in the picture
@@ -70,41 +72,42 @@ void filter_rows(const ImagePair& pair, const Windows& windows, const Tile& tile
         const std::uint8_t* two = pair.test8.pixel(0, from_y) + channel;
         for (int x = 0; x < source_width; ++x) {
             const int from_x = std::clamp(tile.left + x - radius, 0, last_x);
-            scratch.one[x] = float(one[from_x * 3]) - middle;
-            scratch.two[x] = float(two[from_x * 3]) - middle;
+            scratch.sum[x] = float(one[from_x * 3] + two[from_x * 3]) - middle;
+            scratch.difference[x] = float(one[from_x * 3] - two[from_x * 3]);
         }
         for (int x = 0; x < source_width; ++x) {
-            scratch.squares[x] = scratch.one[x] * scratch.one[x] + scratch.two[x] * scratch.two[x];
-            scratch.product[x] = scratch.one[x] * scratch.two[x];
+            scratch.sum_squared[x] = scratch.sum[x] * scratch.sum[x];
+            scratch.difference_squared[x] = scratch.difference[x] * scratch.difference[x];
         }
         const auto across = [&](const SourceRow& from, Row& to) {
             for (int x = 0; x < tile_width; ++x) to[x] = even_sum<radius, 1>(&from[x + radius], windows.across);
         };
-        across(scratch.one, scratch.mean_one[y]);
-        across(scratch.two, scratch.mean_two[y]);
-        across(scratch.squares, scratch.mean_squares[y]);
-        across(scratch.product, scratch.mean_product[y]);
+        across(scratch.sum, scratch.sum_x[y]);
+        across(scratch.difference, scratch.difference_x[y]);
+        across(scratch.sum_squared, scratch.sum_squared_x[y]);
+        across(scratch.difference_squared, scratch.difference_squared_x[y]);
     }
 }
 
 /// The sum of SSIM over row `y` of a tile.
 double row_sum(const Windows& windows, const Tile& tile, int y, const Scratch& scratch) {
-    Row one, two, squares, product, ssim;
+    Row sum, difference, sum_squared, difference_squared, ssim;
     const auto down = [&](const std::array<Row, source_height>& from, Row& to) {
         const float* centre = from[y + radius].data();
         for (int x = 0; x < tile_width; ++x) to[x] = even_sum<radius, tile_width>(centre + x, windows.down);
     };
-    down(scratch.mean_one, one);
-    down(scratch.mean_two, two);
-    down(scratch.mean_squares, squares);
-    down(scratch.mean_product, product);
+    down(scratch.sum_x, sum);
+    down(scratch.difference_x, difference);
+    down(scratch.sum_squared_x, sum_squared);
+    down(scratch.difference_squared_x, difference_squared);
     for (int x = 0; x < tile_width; ++x) {
-        const float variances = squares[x] - (one[x] * one[x] + two[x] * two[x]);
-        const float covariance = product[x] - one[x] * two[x];
-        const float mean_one = one[x] + middle;
-        const float mean_two = two[x] + middle;
-        ssim[x] = (2 * mean_one * mean_two + c1) * (2 * covariance + c2) /
-                  ((mean_one * mean_one + mean_two * mean_two + c1) * (variances + c2));
+        const float sum_variance = sum_squared[x] - sum[x] * sum[x];
+        const float difference_variance = difference_squared[x] - difference[x] * difference[x];
+        const float sum_mean = sum[x] + middle;
+        const float sum_power = sum_mean * sum_mean;
+        const float difference_power = difference[x] * difference[x];
+        ssim[x] = (sum_power - difference_power + 2 * c1) * (sum_variance - difference_variance + 2 * c2) /
+                  ((sum_power + difference_power + 2 * c1) * (sum_variance + difference_variance + 2 * c2));
     }
     return std::accumulate(ssim.begin(), ssim.begin() + tile.width, 0.0);
 }
