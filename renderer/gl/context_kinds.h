@@ -1,6 +1,8 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "renderer/gl/context.h"
@@ -23,5 +25,15 @@ struct Candidate {
 std::vector<Candidate> egl_candidates();
 std::vector<Candidate> osmesa_candidates();
 std::vector<Candidate> glfw_candidates();
+
+/// A way to make contexts.
+struct Kind {
+    std::string_view name;
+    std::vector<Candidate> (*candidates)();
+    bool automatic = false;  ///< whether "auto" tries it
+};
+
+/// create_context() of context.h over these kinds, in their order.
+std::unique_ptr<Context> create_context(const ContextRequest& request, std::span<const Kind> kinds);
 
 }  // namespace sheer::gl

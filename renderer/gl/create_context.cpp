@@ -12,13 +12,7 @@
 namespace sheer::gl {
 namespace {
 
-struct Kind {
-    std::string_view name;
-    std::vector<Candidate> (*candidates)();
-    bool automatic;  ///< whether "auto" tries it
-};
-
-constexpr std::array kinds{
+constexpr std::array all_kinds{
     Kind{"egl", egl_candidates, true},
     Kind{"osmesa", osmesa_candidates, true},
     Kind{"glfw", glfw_candidates, false},
@@ -32,7 +26,7 @@ std::string lower(std::string text) {
 /// Which device the user asked for: any, one by its place, or one by a part of its renderer's name.
 class Selection {
   public:
-    explicit Selection(const std::string& device) : m_text(lower(device)) {
+    Selection(const std::string& device, std::span<const Kind> kinds) : m_text(lower(device)) {
         const bool number = std::ranges::all_of(m_text, [](unsigned char c) { return std::isdigit(c) != 0; });
         const bool name = std::ranges::any_of(
             kinds, [&](const Kind& kind) { return m_text.starts_with(fmt::format("{}:", kind.name)); });
@@ -81,18 +75,25 @@ std::unique_ptr<Context> best_of(std::vector<Candidate> candidates, const Select
     return best;
 }
 
-void require_known_kind(std::string_view context) {
+void require_known(std::string_view context, std::span<const Kind> kinds) {
     if (context == "auto" || std::ranges::find(kinds, context, &Kind::name) != kinds.end()) return;
-    throw std::invalid_argument(fmt::format("there is no context '{}'; it is auto, egl, osmesa or glfw", context));
+    std::vector<std::string_view> known{"auto"};
+    for (const Kind& kind : kinds) known.push_back(kind.name);
+    throw std::invalid_argument(
+        fmt::format("there is no context '{}'; it is one of {}", context, fmt::join(known, ", ")));
 }
 
 }  // namespace
 
 std::unique_ptr<Context> create_context(const ContextRequest& request) {
-    require_known_kind(request.context);
+    return create_context(request, all_kinds);
+}
+
+std::unique_ptr<Context> create_context(const ContextRequest& request, std::span<const Kind> kinds) {
+    require_known(request.context, kinds);
     // A wrong name is the caller's mistake, not a reason to go on to the next device.
     const Workarounds names_are_known(DeviceInfo{}, request.disabled_workarounds);
-    const Selection selection(request.device);
+    const Selection selection(request.device, kinds);
     std::vector<std::string> reasons;
     for (const Kind& kind : kinds) {
         if (request.context == "auto" ? !kind.automatic : request.context != kind.name) continue;
@@ -106,7 +107,7 @@ std::unique_ptr<Context> create_context(const ContextRequest& request) {
 
 std::vector<ListedDevice> list_devices() {
     std::vector<ListedDevice> all;
-    for (const Kind& kind : kinds) {
+    for (const Kind& kind : all_kinds) {
         for (const Candidate& candidate : kind.candidates()) {
             try {
                 all.push_back({candidate.create(candidate.info, {})->device(), std::nullopt});
