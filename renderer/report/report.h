@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -44,7 +45,7 @@ nlohmann::json make_report(const Spec& spec, const Comparison& comparison, BlobS
 
 /// A table for the terminal: a line a method.
 std::string report_table(const nlohmann::json& report);
-/// JUnit XML: a test case a check, or one case a method where the spec has no checks.
+/// JUnit XML: a test case for each check and one for the rendering of each method.
 std::string report_junit(const nlohmann::json& report);
 /// One HTML file that needs nothing else; `read_picture` gives the bytes of a picture by its image object.
 std::string report_html(const nlohmann::json& report,

@@ -83,7 +83,7 @@ std::vector<std::string> metric_names() {
 class SpecReader {
  public:
     Spec read(const json& document) {
-        if (!document.is_object()) throw SpecError({{"", "a spec must be a JSON object"}});
+        if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "a spec must be a JSON object"}});
         Spec spec;
         spec.normalised = read_fields(document, "", spec_fields(), m_errors);
         json& normalised = spec.normalised;
@@ -260,7 +260,7 @@ Spec parse_spec_text(const std::string& text) {
     try {
         return parse_spec(json::parse(text));
     } catch (const json::parse_error& error) {
-        throw SpecError({{"", fmt::format("is not JSON: {}", error.what())}});
+        throw SpecError(std::vector<FieldError>{{"", fmt::format("is not JSON: {}", error.what())}});
     }
 }
 

@@ -1,0 +1,166 @@
+#include "renderer/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "renderer/frame/overdraw.h"
+#include "renderer/methods/method.h"
+#include "renderer/scene/random.h"
+
+namespace sheer {
+
+namespace {
+
+/// The residual is measured where peeling draws at most this many fragments: seconds on a software rasteriser.
+constexpr double max_peeled_fragments = 4e8;
+
+/// Fractions of the job at which each stage begins, for the progress bar.
+constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0.3, metrics_begin = 0.9;
+
+/// The stages of one point; each fills in its part of the run.
+class Comparer {
+ public:
+    Comparer(const Spec& spec, gl::Context& context, const ProgressFunction& progress)
+        : m_spec(spec), m_context(context), m_progress(progress), m_timer(context) {}
+
+    Run run() {
+        m_progress(0, "building the scene");
+        const Geometry geometry = find_scene(m_spec.scene_type)->build(m_spec.scene, m_spec.image);
+        const Scene scene(m_context.gl(), geometry, m_spec.scene);
+        Run run;
+        render_reference(scene, run);
+        const Target target(m_context.gl(), m_spec.image, m_spec.image.format);
+        make_methods(scene, target, run);
+        time_methods();
+        measure(run);
+        return run;
+    }
+
+ private:
+    struct Contender {
+        std::unique_ptr<Method> method;  ///< null where it is not supported
+        MethodResult* result;
+    };
+
+    gl::FrameSample render(Method& method, bool timed) {
+        m_timer.begin_frame(timed);
+        method.render(m_timer);
+        return m_timer.end_frame();
+    }
+
+    std::unique_ptr<Method> make_method(const MethodSpec& spec, const Scene& scene, const Target& target) {
+        return find_method(spec.id)->make({m_context, m_context.gl(), scene, target, spec.parameters});
+    }
+
+    Image picture(const MethodSpec& spec, const Scene& scene, const Target& target) {
+        const auto method = make_method(spec, scene, target);
+        render(*method, false);
+        Image image = target.read();
+        m_context.check("rendering " + spec.id);
+        return image;
+    }
+
+    /// References are rendered in 32-bit floats, whatever the methods blend into.
+    void render_reference(const Scene& scene, Run& run) {
+        m_progress(references_begin, "rendering the reference " + m_spec.reference.id);
+        const Target target(m_context.gl(), m_spec.image, PixelFormat::rgba32f);
+        run.reference = m_spec.reference;
+        run.reference_image = picture(m_spec.reference, scene, target);
+
+        m_timer.begin_frame(false);
+        const Overdraw overdraw = count_overdraw(m_context.gl(), scene, target, m_timer);
+        m_timer.end_frame();
+        const double peeled = static_cast<double>(overdraw.total()) * (overdraw.greatest() + 1.0);
+        if (peeled > max_peeled_fragments) {
+            run.no_residual_reason = fmt::format("depth peeling would draw {:.3g} fragments; the limit is {:.3g}", peeled,
+                                                 max_peeled_fragments);
+            return;
+        }
+        m_progress(references_begin, "checking the reference against depth peeling");
+        const Image peeled_image = picture({"depth_peeling", "", nlohmann::json::object()}, scene, target);
+        double greatest = 0;
+        for (std::size_t i = 0; i < peeled_image.rgba.size(); ++i)
+            if (i % 4 != 3)
+                greatest = std::max(greatest, std::abs(double{peeled_image.rgba[i]} - run.reference_image.rgba[i]));
+        run.residual = greatest;
+    }
+
+    /// Renders each method until it is warm, and keeps its picture.
+    void make_methods(const Scene& scene, const Target& target, Run& run) {
+        run.results.resize(m_spec.methods.size());
+        for (std::size_t i = 0; i < run.results.size(); ++i) {
+            MethodResult& result = run.results[i];
+            result.method = m_spec.methods[i];
+            step(methods_begin, timing_begin, i, run.results.size(), "warming up " + result.method.label);
+            try {
+                auto method = make_method(result.method, scene, target);
+                for (int frame = 0; frame < m_spec.timing.warmup; ++frame) render(*method, false);
+                result.image = target.read();
+                result.memory_bytes = method->memory_bytes();
+                m_context.check("rendering " + result.method.label);
+                m_contenders.push_back({std::move(method), &result});
+            } catch (const Unsupported& unsupported) {
+                result.status = "unsupported";
+                result.reason = unsupported.what();
+            }
+        }
+    }
+
+    /// Rounds in which every method renders one frame, in an order that is drawn anew: neighbours in time share the
+    /// machine's mood, and no method always follows the same other one.
+    void time_methods() {
+        using Clock = std::chrono::steady_clock;
+        const auto begin = Clock::now();
+        Random random(1);
+        std::vector<std::size_t> order(m_contenders.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        for (int round = 0; round < m_spec.timing.rounds; ++round) {
+            const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+            if (round > 0 && seconds > m_spec.timing.max_seconds) break;
+            step(timing_begin, metrics_begin, static_cast<std::size_t>(round),
+                 static_cast<std::size_t>(m_spec.timing.rounds),
+                 fmt::format("timing round {} of {}", round + 1, m_spec.timing.rounds));
+            for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+            for (const std::size_t i : order)
+                m_contenders[i].result->samples.push_back(render(*m_contenders[i].method, true));
+        }
+        m_context.check("timing");
+        m_contenders.clear();
+    }
+
+    void measure(Run& run) {
+        for (std::size_t i = 0; i < run.results.size(); ++i) {
+            MethodResult& result = run.results[i];
+            if (result.status != "ok") continue;
+            step(metrics_begin, 1, i, run.results.size(), "measuring " + result.method.label);
+            result.no_metrics_reason = find_method(result.method.id)->no_metrics_reason;
+            if (result.no_metrics_reason.empty()) result.metrics = compute_metrics(run.reference_image, result.image);
+        }
+    }
+
+    void step(double from, double to, std::size_t index, std::size_t count, const std::string& stage) const {
+        m_progress(from + (to - from) * static_cast<double>(index) / static_cast<double>(count), stage);
+    }
+
+    const Spec& m_spec;
+    gl::Context& m_context;
+    const ProgressFunction& m_progress;
+    gl::FrameTimer m_timer;
+    std::vector<Contender> m_contenders;
+};
+
+}  // namespace
+
+Comparison compare(const Spec& spec, gl::Context& context, const ProgressFunction& progress) {
+    Comparison comparison;
+    comparison.device = context.device();
+    comparison.workarounds = context.workarounds().names();
+    comparison.runs.push_back(Comparer(spec, context, progress).run());
+    return comparison;
+}
+
+}  // namespace sheer

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "renderer/frame/image.h"
+
+namespace sheer {
+
+/// PNG of 8 bits per channel, RGB. Throws std::runtime_error with the encoder's message.
+std::string encode_png(const Image8& image);
+/// OpenEXR of 32-bit floats, RGBA, ZIP-compressed: the values as the method left them.
+std::string encode_exr(const Image& image);
+
+/// Reads a PNG file that Sheer or a test wrote; not for files from outside. Throws std::runtime_error naming the file.
+Image8 read_png(const std::string& path);
+
+}  // namespace sheer

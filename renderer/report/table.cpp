@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "renderer/report/report.h"
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// The number at `path` below `value`, or a dash where there is none.
+std::string number(const json& value, const char* path, const char* format) {
+    const json::json_pointer pointer(path);
+    if (!value.is_object() || !value.contains(pointer) || !value[pointer].is_number()) return "-";
+    return fmt::format(fmt::runtime(format), value[pointer].get<double>());
+}
+
+std::string interval(const json& result) {
+    const json& speedup = result["speedup"];
+    if (speedup.is_null()) return "-";
+    if (speedup["ci95"].is_null()) return fmt::format("{:.2f}x", speedup["value"].get<double>());
+    return fmt::format("{:.2f}x [{:.2f}, {:.2f}]", speedup["value"].get<double>(), speedup["ci95"][0].get<double>(),
+                       speedup["ci95"][1].get<double>());
+}
+
+Row row(const json& result) {
+    if (result["status"] != "ok")
+        return {result["label"], result["status"].get<std::string>() + ": " + result["reason"].get<std::string>()};
+    return {result["label"],
+            number(result, "/timing/median", "{:.2f}"),
+            number(result, "/timing/mad", "{:.2f}"),
+            number(result, "/timing/p95", "{:.2f}"),
+            interval(result),
+            number(result, "/metrics/signed/mean_abs", "{:.3f}"),
+            number(result, "/metrics/signed/min", "{:.0f}"),
+            number(result, "/metrics/signed/max", "{:.0f}"),
+            number(result, "/metrics/psnr", "{:.1f}"),
+            number(result, "/metrics/ssim", "{:.4f}"),
+            number(result, "/metrics/flip/mean", "{:.4f}"),
+            number(result, "/metrics/differing_pixels", "{:.0f}")};
+}
+
+/// Text to the left, numbers to the right; a short row is a message after its label.
+std::string aligned(const std::vector<Row>& rows) {
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const Row& cells : rows) {
+        if (cells.size() < widths.size()) widths[0] = std::max(widths[0], cells[0].size());
+        for (std::size_t i = 0; cells.size() == widths.size() && i < cells.size(); ++i)
+            widths[i] = std::max(widths[i], cells[i].size());
+    }
+    std::string text;
+    for (const Row& cells : rows) {
+        std::string line = fmt::format("{:<{}}", cells[0], widths[0]);
+        for (std::size_t i = 1; i < cells.size(); ++i)
+            line += fmt::format("  {:>{}}", cells[i], cells.size() == widths.size() ? widths[i] : 0);
+        text += line + "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string report_table(const json& report) {
+    const json& device = report["device"];
+    std::string text = fmt::format("{}, OpenGL {} ({})\n", device["renderer"].get<std::string>(),
+                                   device["gl_version"].get<std::string>(), device["context"].get<std::string>());
+    if (device["software"].get<bool>()) text += "Times on a software rasteriser do not predict those on a GPU.\n";
+    for (const json& run : report["runs"]) {
+        text += "\n";
+        if (!run["point"].empty()) text += run["point"].dump() + "\n";
+        std::vector<Row> rows = {{"method", "median ms", "MAD", "p95", "speedup [95 %]", "mean |d|", "min d", "max d",
+                                  "PSNR dB", "SSIM", "FLIP", "differing px"}};
+        for (const json& result : run["results"]) rows.push_back(row(result));
+        text += aligned(rows);
+        const json& residual = run["reference"]["residual"]["depth_peeling"];
+        text += fmt::format("\nd: {} minus method, in 8-bit levels. Speedup over {}.", run["reference"]["method"].get<std::string>(),
+                            report["spec"]["baseline"].get<std::string>());
+        if (residual.is_number()) text += fmt::format(" Residual to depth peeling {:.2g}.", residual.get<double>());
+        text += "\n";
+    }
+    for (const json& check : report["checks"]) {
+        text += fmt::format("{}  {} of {} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",
+                            check["metric"].get<std::string>(), check["method"].get<std::string>(), check["value"].dump());
+        if (!check["min"].is_null()) text += fmt::format(", at least {}", check["min"].dump());
+        if (!check["max"].is_null()) text += fmt::format(", at most {}", check["max"].dump());
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace sheer

@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "renderer/gl/context.h"
+#include "renderer/spec/spec.h"
+#include "server/cli/commands.h"
+#include "server/cli/rendering.h"
+
+namespace sheer::cli {
+
+namespace {
+
+using nlohmann::json;
+
+std::string parameter_line(const json& parameter, int indent) {
+    std::string range;
+    if (parameter.contains("choices")) {
+        range = fmt::format(" {}", fmt::join(parameter["choices"].get<std::vector<std::string>>(), "|"));
+    } else if (parameter.contains("min") && parameter.contains("max")) {
+        range = fmt::format(" {} to {}", parameter["min"].dump(), parameter["max"].dump());
+    }
+    const auto unit = parameter["unit"].get<std::string>();
+    std::string line = fmt::format("{:{}}{} ({}{}{})", "", indent, parameter["name"].get<std::string>(),
+                                   parameter["kind"].get<std::string>(), range, unit.empty() ? "" : " " + unit);
+    if (!parameter["default"].is_null() && !parameter.contains("fields")) line += " = " + parameter["default"].dump();
+    line += "  " + parameter["summary"].get<std::string>() + "\n";
+    if (parameter.contains("fields"))
+        for (const json& field : parameter["fields"]) line += parameter_line(field, indent + 2);
+    return line;
+}
+
+std::string entry(const json& info, const std::vector<std::pair<std::string, std::string>>& captions) {
+    std::string text = fmt::format("{}  {}\n", info["id"].get<std::string>(), info["summary"].get<std::string>());
+    for (const auto& [caption, key] : captions)
+        text += fmt::format("    {:<9}{}\n", caption, info[key].get<std::string>());
+    for (const json& parameter : info["parameters"]) text += parameter_line(parameter, 4);
+    return text;
+}
+
+json describe_devices() {
+    json all = json::array();
+    for (const gl::ListedDevice& device : gl::list_devices()) {
+        json one = gl::to_json(device.info);
+        one["error"] = device.error ? json(*device.error) : json();
+        json workarounds = json::array();
+        for (const gl::Workaround& workaround : gl::known_workarounds())
+            if (!device.error && workaround.applies(device.info))
+                workarounds.push_back({{"name", workaround.name}, {"paragraph", workaround.paragraph}});
+        one["workarounds"] = workarounds;
+        all.push_back(one);
+    }
+    return all;
+}
+
+std::string device_line(const json& device) {
+    const auto name = device["name"].get<std::string>();
+    if (!device["error"].is_null()) return fmt::format("{:<10} not usable: {}\n", name, device["error"].get<std::string>());
+    return fmt::format("{:<10} {}, OpenGL {}{}\n", name, device["renderer"].get<std::string>(),
+                       device["gl_version"].get<std::string>(), device["software"].get<bool>() ? ", software" : "");
+}
+
+using Describe = std::function<json()>;
+using Line = std::function<std::string(const json&)>;
+
+void add_list(CLI::App& app, int& exit_code, const std::string& name, const std::string& summary, Describe describe,
+              Line line) {
+    CLI::App* command = app.add_subcommand(name, summary);
+    auto as_json = std::make_shared<bool>(false);
+    command->add_flag("--json", *as_json, "As JSON");
+    command->callback([=, &exit_code] {
+        exit_code = guarded([&] {
+            const json all = describe();
+            if (*as_json) {
+                fmt::print("{}\n", all.dump(2));
+            } else {
+                for (const json& one : all) fmt::print("{}", line(one));
+            }
+            return exit_ok;
+        });
+    });
+}
+
+}  // namespace
+
+void add_catalog(CLI::App& app, int& exit_code) {
+    add_list(app, exit_code, "methods", "The methods and their parameters", describe_methods, [](const json& info) {
+        return entry(info, {{"paper", "paper"}, {"good at", "good_at"}, {"bad at", "bad_at"}, {"memory", "memory"}}) + "\n";
+    });
+    add_list(app, exit_code, "scenes", "The scenes and their parameters", describe_scenes,
+             [](const json& info) { return entry(info, {{"source", "source"}}) + "\n"; });
+    add_list(app, exit_code, "devices", "What can be rendered on here", describe_devices, device_line);
+}
+
+}  // namespace sheer::cli

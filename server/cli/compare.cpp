@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <optional>
+
+#include "renderer/compare.h"
+#include "renderer/report/report.h"
+#include "server/cli/commands.h"
+#include "server/cli/rendering.h"
+
+namespace sheer::cli {
+
+namespace {
+
+struct Options {
+    std::string spec, out, junit;
+    gl::ContextRequest context;
+};
+
+/// A bar on a terminal's stderr, from the second second on.
+class ProgressBar {
+ public:
+    ~ProgressBar() {
+        if (m_shown) fmt::print(stderr, "\r\033[K");
+    }
+    void show(double fraction, const std::string& stage) {
+        if (!m_terminal || Clock::now() - m_begin < std::chrono::seconds(1)) return;
+        constexpr int width = 30;
+        const int filled = static_cast<int>(fraction * width);
+        fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100 * fraction, stage);
+        std::fflush(stderr);
+        m_shown = true;
+    }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point m_begin = Clock::now();
+    bool m_terminal = isatty(STDERR_FILENO) == 1;
+    bool m_shown = false;
+};
+
+void write_report(const nlohmann::json& report, const std::filesystem::path& folder) {
+    const auto read_picture = [&](const nlohmann::json& image) {
+        return read_text(folder / image.at("url").get<std::string>());
+    };
+    write_text(folder / "report.html", report_html(report, read_picture));
+    write_text(folder / "report.json", report.dump(2) + "\n");
+}
+
+/// Encodes no picture to a file: without --out only the table is wanted.
+class NoSink : public BlobSink {
+    std::string put(const std::string&, const std::string&, const std::string& name, const std::string&) override {
+        return name;
+    }
+};
+
+int run(const Options& options) {
+    const std::string created_at = utc_now();
+    const Spec spec = load_spec(options.spec);
+    std::optional<ReportFolder> folder;
+    if (!options.out.empty()) folder.emplace(options.out);
+    nlohmann::json report;
+    {
+        ProgressBar bar;
+        const auto context = gl::create_context(options.context);
+        const Comparison comparison =
+            compare(spec, *context, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); });
+        if (folder) {
+            FolderSink sink(folder->partial());
+            report = make_report(spec, comparison, sink, created_at);
+            report["provenance"]["rerun"] = "sheer compare " + options.spec;
+            write_report(report, folder->partial());
+            folder->commit();
+        } else {
+            NoSink sink;
+            report = make_report(spec, comparison, sink, created_at);
+        }
+    }
+    fmt::print("{}", report_table(report));
+    if (!options.junit.empty()) write_text(options.junit, report_junit(report));
+    if (folder) {
+        fmt::print("\nReport: {}\n", (std::filesystem::absolute(options.out) / "report.html").string());
+    } else {
+        fmt::print("\nAdd --out DIR to keep the pictures and the report.\n");
+    }
+    return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("compare", "Render a comparison here and print its table");
+    auto options = std::make_shared<Options>();
+    command->add_option("spec", options->spec, "The spec, a JSON file (see configs/specs)")->required();
+    command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
+    command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
+    add_context_options(*command, options->context);
+    command->callback([options, &exit_code] { exit_code = guarded([&] { return run(*options); }); });
+}
+
+}  // namespace sheer::cli

@@ -1,0 +1,83 @@
+// The worker's child: renders one job and says how far it is, a JSON object a line. It may die without harm.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "renderer/compare.h"
+#include "renderer/report/report.h"
+#include "server/cli/commands.h"
+#include "server/cli/rendering.h"
+
+namespace sheer::cli {
+
+namespace {
+
+using nlohmann::json;
+
+struct Options {
+    std::string spec, out;
+    bool probe = false;
+    gl::ContextRequest context;
+};
+
+void say(const json& line) {
+    fmt::print("{}\n", line.dump());
+    std::fflush(stdout);
+}
+
+int fail(const std::string& kind, const std::exception& error, int exit_code, const json& errors = json::array()) {
+    say({{"error", {{"kind", kind}, {"detail", error.what()}, {"errors", errors}}}});
+    return exit_code;
+}
+
+/// Clears one pixel and reads it back.
+int probe(gl::Context& context) {
+    ImageSpec image;
+    image.width_px = image.height_px = 1;
+    const Target target(context.gl(), image, PixelFormat::rgba8);
+    begin_pass(context.gl(), target.framebuffer(), 1, 1);
+    const float green[] = {0, 1, 0, 1};
+    context.gl().ClearBufferfv(GL_COLOR, 0, green);
+    const Image read = target.read();
+    context.check("the probe");
+    if (quantize(read).rgb != std::vector<std::uint8_t>{0, 255, 0}) throw RenderError("the probe's pixel is not green");
+    return exit_ok;
+}
+
+int run(const Options& options) {
+    try {
+        if (options.probe) return probe(*gl::create_context(options.context));
+        const std::string created_at = utc_now();
+        const Spec spec = load_spec(options.spec);
+        const auto context = gl::create_context(options.context);
+        const Comparison comparison = compare(spec, *context, [](double fraction, const std::string& stage) {
+            say({{"progress", fraction}, {"stage", stage}});
+        });
+        ContentSink sink(options.out);
+        const json report = make_report(spec, comparison, sink, created_at);
+        write_text(std::filesystem::path(options.out) / "report.json", report.dump());
+        return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
+    } catch (const SpecError& error) {
+        json errors = json::array();
+        for (const FieldError& field : error.errors()) errors.push_back({{"pointer", field.pointer}, {"detail", field.detail}});
+        return fail("spec", error, exit_bad_spec, errors);
+    } catch (const Unsupported& error) {
+        return fail("unsupported", error, exit_render_failed);
+    } catch (const std::exception& error) {
+        return fail("render", error, exit_render_failed);
+    }
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("render", "Render one job for a worker")->group("");
+    auto options = std::make_shared<Options>();
+    command->add_option("spec", options->spec, "The spec, a JSON file");
+    command->add_option("--out", options->out, "Folder for report.json and the pictures, named by content");
+    command->add_flag("--probe", options->probe, "Render one pixel and nothing else");
+    add_context_options(*command, options->context);
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace sheer::cli

@@ -1,0 +1,79 @@
+#include "server/cli/rendering.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "server/cli/commands.h"
+
+namespace sheer::cli {
+
+void add_context_options(CLI::App& command, gl::ContextRequest& request) {
+    command.add_option("--context", request.context, "Where to render: auto tries EGL, then OSMesa")
+        ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
+        ->capture_default_str();
+    command.add_option("--device", request.device, "Index of a device, or a part of its name (see sheer devices)");
+    command.add_option("--without-workaround", request.disabled_workarounds, "Name of a driver workaround to switch off");
+}
+
+Spec load_spec(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read the spec " + path}});
+    return parse_spec_text(text.str());
+}
+
+int guarded(const std::function<int()>& action) {
+    try {
+        return action();
+    } catch (const SpecError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return exit_bad_spec;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "sheer: {}\n", error.what());
+        return exit_render_failed;
+    }
+}
+
+ReportFolder::ReportFolder(std::filesystem::path folder) : m_folder(std::move(folder)) {
+    if (!m_folder.has_filename()) m_folder = m_folder.parent_path();
+    const bool exists = std::filesystem::exists(m_folder);
+    if (exists && !std::filesystem::is_directory(m_folder))
+        throw std::runtime_error(m_folder.string() + " is not a folder");
+    if (exists && !std::filesystem::is_empty(m_folder) && !std::filesystem::exists(m_folder / "report.json"))
+        throw std::runtime_error(m_folder.string() + " holds something that is not a report; choose another folder");
+    m_partial = m_folder;
+    m_partial += fmt::format(".partial-{}", getpid());
+    std::filesystem::create_directories(m_partial);
+}
+
+ReportFolder::~ReportFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_partial, ignored);
+}
+
+void ReportFolder::commit() {
+    std::filesystem::remove_all(m_folder);
+    std::filesystem::rename(m_partial, m_folder);
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path.string());
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw std::runtime_error("cannot read " + path.string());
+    return text.str();
+}
+
+}  // namespace sheer::cli

@@ -1,0 +1,42 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "renderer/gl/context.h"
+#include "renderer/spec/spec.h"
+
+namespace sheer::cli {
+
+/// Adds --context, --device and --without-workaround to `command`.
+void add_context_options(CLI::App& command, gl::ContextRequest& request);
+
+/// Throws SpecError, also for a file that cannot be read, naming it.
+Spec load_spec(const std::string& path);
+
+/// Runs `action` and turns what it throws into a message on stderr and an exit code.
+int guarded(const std::function<int()>& action);
+
+/// Writes a report whole: `fill` gets a temporary folder beside `folder`, which then takes the place of `folder`.
+/// Throws std::runtime_error, before anything is done, if `folder` holds something that is not a report.
+class ReportFolder {
+ public:
+    explicit ReportFolder(std::filesystem::path folder);
+    ~ReportFolder();
+    ReportFolder(const ReportFolder&) = delete;
+    ReportFolder& operator=(const ReportFolder&) = delete;
+
+    const std::filesystem::path& partial() const { return m_partial; }
+    /// Throws std::filesystem::filesystem_error.
+    void commit();
+
+ private:
+    std::filesystem::path m_folder, m_partial;
+};
+
+/// Throws std::runtime_error naming the file.
+void write_text(const std::filesystem::path& path, const std::string& text);
+/// Throws std::runtime_error naming the file.
+std::string read_text(const std::filesystem::path& path);
+
+}  // namespace sheer::cli
