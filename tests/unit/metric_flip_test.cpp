@@ -56,7 +56,7 @@ TEST(Metrics, OfRenderedPictures) {
     EXPECT_EQ(found["signed"]["max"], 46);
     EXPECT_NEAR(found["rmse"], 0.043090033793860325, 1e-12);
     EXPECT_EQ(found["differing_pixels"], 61039);
-    EXPECT_NEAR(found["ssim"], 0.8776758650126548, 1e-5);
+    EXPECT_NEAR(found["ssim"], 0.8776758650126548, 1e-6);
 }
 
 struct Colours {
