@@ -13,6 +13,8 @@ class GlfwHandle {
     GlfwHandle() : m_library(GlfwLibrary::acquire()) {
         glfwDefaultWindowHints();
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        // EGL and GLX refuse to take a thread over from each other, GLX by ending the process.
+        glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -25,7 +27,7 @@ class GlfwHandle {
     ~GlfwHandle() { glfwDestroyWindow(m_window); }
 
     void make_current() {
-        // Like EGL, GLX does nothing when it believes that the context is current already.
+        // See EglHandle::make_current.
         glfwMakeContextCurrent(nullptr);
         glfwMakeContextCurrent(m_window);
         if (glfwGetCurrentContext() != m_window) {
