@@ -1,0 +1,80 @@
+// The service's REST interface.
+
+const ROOT = "/api/v1";
+
+/** An answer that is not a success. `errors`: [{pointer, detail}] of a spec that is wrong. */
+export class ApiError extends Error {
+  constructor(status, problem, retry_after) {
+    super(problem.detail || problem.title || `The server answered ${status}`);
+    this.status = status;
+    this.errors = problem.errors ?? [];
+    this.retry_after_s = retry_after;
+  }
+}
+
+async function call(path, options = {}) {
+  let response;
+  try {
+    response = await fetch(ROOT + path, options);
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new ApiError(0, { detail: "The server cannot be reached." });
+  }
+  const is_json = (response.headers.get("Content-Type") ?? "").includes("json");
+  const body = is_json ? await response.json() : null;
+  if (!response.ok) throw new ApiError(response.status, body ?? {}, Number(response.headers.get("Retry-After")) || null);
+  return { body, location: response.headers.get("Location") };
+}
+
+function post(path, value, options = {}) {
+  return call(path, { method: "POST", headers: { "Content-Type": "application/json" },
+                      body: JSON.stringify(value), ...options });
+}
+
+export const report_path = (id) => `${ROOT}/reports/${encodeURIComponent(id)}`;
+
+export async function get_methods() { return list_of((await call("/methods")).body, "methods"); }
+export async function get_scenes() { return list_of((await call("/scenes")).body, "scenes"); }
+
+function list_of(body, name) { return Array.isArray(body) ? body : body[name]; }
+
+/** The spec with its defaults filled in; throws ApiError with `errors` if it is wrong. */
+export async function validate(spec, signal) { return (await post("/specs/validate", spec, { signal })).body; }
+
+/** Queues a comparison; gives its id. */
+export async function submit(spec) {
+  const { body, location } = await post("/reports", spec);
+  return body?.id ?? location.split("/").pop();
+}
+
+export async function get_report(id, signal) {
+  return (await call(`/reports/${encodeURIComponent(id)}`, { signal })).body;
+}
+
+export async function delete_report(id) { await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" }); }
+
+/** A page of the archive: {reports, next_cursor}. */
+export async function list_reports(query, signal) {
+  const filled = Object.entries(query).filter(([, value]) => value !== "" && value !== null && value !== undefined);
+  return (await call(`/reports?${new URLSearchParams(filled)}`, { signal })).body;
+}
+
+/**
+ * Follows a report until it is settled. `on_progress({progress, stage, status})` hears of each step, `on_end()` once.
+ * Gives a function that stops listening.
+ */
+export function follow(id, on_progress, on_end) {
+  const source = new EventSource(`${report_path(id)}/events`);
+  const close = () => source.close();
+  const hear = (event) => on_progress(JSON.parse(event.data));
+  source.addEventListener("progress", hear);
+  for (const end of ["done", "failed", "cancelled"]) {
+    source.addEventListener(end, () => {
+      close();
+      on_end();
+    });
+  }
+  // The browser reconnects by itself while the source is not closed.
+  source.addEventListener("error", () => { if (source.readyState === EventSource.CLOSED) on_end(); });
+  return close;
+}

@@ -1,0 +1,95 @@
+// What the result tables show: one entry a column. Captions come from the metrics' own descriptions where there are any.
+import { is_number } from "./format.js";
+
+const lower = { better: (value) => value };
+const nearer_zero = { better: (value) => Math.abs(value) };
+
+/** The value at a dotted path, undefined where there is none. */
+export function value_at(object, path) {
+  return path.split(".").reduce((part, key) => (part === null || part === undefined ? undefined : part[key]), object);
+}
+
+/** Of the timing table: path below a result, heading, unit, explanation; `better` gives a value to be made small. */
+export const TIMING_COLUMNS = [
+  { path: "timing.median", head: "Median", unit: "ms", title: "Median of the timed frames", ...lower },
+  { path: "timing.mad", head: "MAD", unit: "ms", title: "Median absolute deviation from the median" },
+  { path: "timing.min", head: "Min", unit: "ms", title: "Fastest frame", ...lower },
+  { path: "timing.p95", head: "p95", unit: "ms", title: "95th percentile of the frames", ...lower },
+  { path: "timing.initialization", head: "Init.", unit: "ms",
+    title: "Initialization: preparing the method's own targets, part of the frame" },
+  { path: "timing.finalization", head: "Final.", unit: "ms",
+    title: "Finalization: bringing the result into the image, part of the frame" },
+];
+
+export const SPEEDUP_COLUMN = {
+  path: "speedup.value", head: "Speed-up", unit: "×", better: (value) => -value,
+  title: "Baseline's time over this method's time, with the 95 % confidence interval",
+};
+
+/** Of the table of differences, in the order they are shown. */
+export const DIFFERENCE_COLUMNS = [
+  { path: "metrics.signed.mean_abs", metric: "signed.mean_abs", head: "Mean |Δ|", unit: "levels", ...lower,
+    title: "Mean absolute difference over red, green and blue, in 8-bit levels" },
+  { path: "metrics.signed.min", metric: "signed.min", head: "Min Δ", unit: "levels", ...nearer_zero,
+    title: "Smallest reference minus method: how far the method is too bright" },
+  { path: "metrics.signed.max", metric: "signed.max", head: "Max Δ", unit: "levels", ...nearer_zero,
+    title: "Greatest reference minus method: how far the method is too dark" },
+  { path: "metrics.rmse", metric: "rmse", head: "RMSE", unit: "0..1", ...lower, title: "Root mean square error" },
+  { path: "metrics.psnr", metric: "psnr", head: "PSNR", unit: "dB", better: (value) => -value,
+    title: "Peak signal-to-noise ratio", null_is_perfect: true },
+  { path: "metrics.ssim", metric: "ssim", head: "SSIM", unit: "−1..1", better: (value) => -value, digits: 4,
+    title: "Structural similarity" },
+  { path: "metrics.flip.mean", metric: "flip.mean", head: "FLIP mean", unit: "0..1", ...lower,
+    title: "Mean FLIP error" },
+  { path: "metrics.differing_pixels", metric: "differing_pixels", head: "Differing", unit: "px", whole: true, ...lower,
+    title: "Pixels that differ from the reference after rounding to 8 bits" },
+  { path: "metrics.worst_pixel", metric: "worst_pixel", head: "Worst pixel", unit: "x, y", pixel: true,
+    null_is_perfect: true,
+    title: "Pixel that differs most; click it to look there" },
+  { path: "metrics.non_finite", metric: "non_finite", head: "Non-finite", unit: "px", whole: true, ...lower,
+    title: "Pixels with an infinity or a NaN" },
+];
+
+/** Explanation of a column, from the descriptions of the metrics where they have one. */
+export function column_title(column, metrics) {
+  const [id, field = ""] = (column.metric ?? "").split(".");
+  const info = metrics.find((metric) => metric.id === id);
+  if (!info) return column.title;
+  const part = info.fields?.find((one) => one.name === field)?.summary;
+  return [info.name, part ?? info.summary].filter(Boolean).join(": ");
+}
+
+/** Why a value is missing: the report says so beside the value, or it follows from the status. */
+export function missing_reason(result, column) {
+  if (result.status !== "ok") return `${result.status}: ${result.reason ?? "no reason given"}`;
+  const parts = column.path.split(".");
+  for (let length = parts.length; length > 0; --length) {
+    const owner = length > 1 ? value_at(result, parts.slice(0, length - 1).join(".")) : result;
+    const key = parts[length - 1];
+    const reason = owner?.reasons?.[key] ?? owner?.[`${key}_reason`] ?? (length < parts.length ? owner?.[key]?.reason : null);
+    if (reason) return reason;
+  }
+  if (column.null_is_perfect && is_perfect(result)) return "none: identical to the reference";
+  return result.reason || "not measured";
+}
+
+export function is_perfect(result) {
+  return result.metrics?.differing_pixels === 0 || result.metrics?.rmse === 0;
+}
+
+/**
+ * The results that hold the best value of a column: of those that gave a picture, and none where all are equal.
+ * A method that only bounds what is attainable has no metrics and takes no part.
+ */
+export function best_results(results, column) {
+  if (!column.better) return new Set();
+  const scores = results.filter((result) => result.status === "ok" && result.metrics).map((result) => {
+    const value = value_at(result, column.path);
+    if (is_number(value)) return [result, column.better(value)];
+    return [result, column.null_is_perfect && is_perfect(result) ? -Infinity : NaN];
+  }).filter(([, score]) => !Number.isNaN(score));
+  const best = Math.min(...scores.map(([, score]) => score));
+  const worst = Math.max(...scores.map(([, score]) => score));
+  if (scores.length < 2 || best === worst) return new Set();
+  return new Set(scores.filter(([, score]) => score === best).map(([result]) => result));
+}

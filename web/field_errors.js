@@ -1,0 +1,47 @@
+// Errors of a spec, put beside the fields that they are about.
+
+/** The element of the form for a JSON pointer: its own field, else the nearest part that holds it. */
+function place_of(form, pointer) {
+  const places = new Map([...form.querySelectorAll("[data-pointer]")].map((node) => [node.dataset.pointer, node]));
+  for (let end = pointer.length; end > 0; end = pointer.lastIndexOf("/", end - 1)) {
+    const place = places.get(pointer.slice(0, end));
+    if (place) return place;
+  }
+  return null;
+}
+
+const own_slot = (place) => place.querySelector(":scope > .error-text") ?? place.querySelector(".error-text");
+
+export function clear_errors(form) {
+  for (const slot of form.querySelectorAll("[data-pointer] > .error-text:not([hidden])")) {
+    slot.hidden = true;
+    slot.textContent = "";
+  }
+  for (const input of form.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
+}
+
+/** Shows `errors` [{pointer, detail}] in the form; gives those that belong to no field. */
+export function show_errors(form, errors) {
+  clear_errors(form);
+  return errors.filter(({ pointer, detail }) => {
+    const place = place_of(form, pointer);
+    const slot = place && own_slot(place);
+    if (!slot) return true;
+    const exact = place.dataset.pointer === pointer;
+    const text = exact ? detail : `${pointer.slice(place.dataset.pointer.length + 1)}: ${detail}`;
+    slot.textContent = slot.hidden ? text : `${slot.textContent}; ${text}`;
+    slot.hidden = false;
+    if (place.classList.contains("field")) {
+      for (const input of place.querySelectorAll("input, select, textarea")) input.setAttribute("aria-invalid", "true");
+    }
+    return false;
+  });
+}
+
+/** Moves to the first field that is wrong. */
+export function focus_first_error(form) {
+  const input = form.querySelector("[aria-invalid]");
+  const slot = form.querySelector(".error-text:not([hidden])");
+  if (input) input.focus();
+  else slot?.scrollIntoView({ block: "center" });
+}

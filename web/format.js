@@ -1,0 +1,72 @@
+// Numbers and dates as text. A missing number is an en dash, never 0.
+
+export const DASH = "–";
+
+const MAX_DECIMALS = 6;
+
+export function is_number(value) {
+  return typeof value === "number" && Number.isFinite(value);
+}
+
+/** Decimals that give the smallest value that is not 0 `digits` significant digits, so that a column lines up. */
+export function column_decimals(values, digits = 3) {
+  if (values.filter(is_number).every(Number.isInteger)) return 0;
+  const sizes = values.filter(is_number).map(Math.abs).filter((size) => size > 0);
+  if (sizes.length === 0) return 0;
+  const smallest = Math.min(...sizes);
+  return Math.min(MAX_DECIMALS, Math.max(0, digits - 1 - Math.floor(Math.log10(smallest))));
+}
+
+export function fixed(value, decimals) {
+  if (!is_number(value)) return DASH;
+  if (value === 0) return "0";
+  const text = value.toFixed(decimals);
+  if (Number(text) === 0) return value.toExponential(1).replace("-", "−");
+  return text.replace("-", "−");
+}
+
+export function integer(value) {
+  return is_number(value) ? Math.round(value).toLocaleString("en-US").replace("-", "−") : DASH;
+}
+
+export function percent(fraction) {
+  return is_number(fraction) ? `${(fraction * 100).toFixed(fraction > 0 && fraction < 0.1 ? 1 : 0)} %` : DASH;
+}
+
+/** A zoom factor: 25 %, 100 %, 3200 %. */
+export function zoom_text(zoom) {
+  return `${Math.round(zoom * 100)} %`;
+}
+
+export function when(text) {
+  const date = new Date(text);
+  if (!text || Number.isNaN(date.getTime())) return DASH;
+  const two = (n) => String(n).padStart(2, "0");
+  return `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ` +
+    `${two(date.getHours())}:${two(date.getMinutes())}`;
+}
+
+/** "3 minutes ago", or the date where that is over a day. */
+export function ago(text, now = Date.now()) {
+  const seconds = (now - new Date(text).getTime()) / 1000;
+  if (!Number.isFinite(seconds)) return DASH;
+  if (seconds < 60) return "just now";
+  if (seconds < 3600) return `${Math.floor(seconds / 60)} min ago`;
+  if (seconds < 86400) return `${Math.floor(seconds / 3600)} h ago`;
+  return when(text);
+}
+
+/** `value` in one line: 0.02, leaf, [0, 0, 0], {…}. */
+export function short_value(value) {
+  if (Array.isArray(value)) return value.length > 4 ? `${value.length} items` : `[${value.map(short_value).join(", ")}]`;
+  if (value !== null && typeof value === "object") {
+    return Object.entries(value).map(([key, part]) => `${key} ${short_value(part)}`).join(", ");
+  }
+  return String(value);
+}
+
+/** snake_case to words with a capital. */
+export function words(name) {
+  const text = name.replaceAll("_", " ");
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}

@@ -1,0 +1,117 @@
+// What part of the pictures is seen, shared by all panes so that they zoom and pan together.
+
+const STEPS = [1 / 16, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64];
+
+export class Viewport extends EventTarget {
+  #width;
+  #height;
+  #zoom = null; // device pixels per picture pixel; null: as much as fits
+  #center;
+  #cursor = null;
+
+  constructor(width_px, height_px) {
+    super();
+    this.#width = width_px;
+    this.#height = height_px;
+    this.#center = [width_px / 2, height_px / 2];
+  }
+
+  get size() { return [this.#width, this.#height]; }
+  get fits() { return this.#zoom === null; }
+  get cursor() { return this.#cursor; }
+
+  /** Device pixels per picture pixel in a pane of this size (CSS pixels). */
+  zoom_in(pane_width, pane_height) {
+    return this.#zoom ?? this.fit_zoom(pane_width, pane_height);
+  }
+
+  /** The zoom at which the whole picture fits into a pane of this size. */
+  fit_zoom(pane_width, pane_height) {
+    const ratio = window.devicePixelRatio || 1;
+    const fit = Math.min(pane_width / this.#width, pane_height / this.#height) * ratio;
+    // Enlarged only by whole factors: any other would make some pixels wider than their neighbours.
+    return fit >= 1 ? Math.floor(fit) : Math.max(fit, 1 / 64);
+  }
+
+  /** Where the picture lies in a pane: {scale, left, top} in CSS pixels, snapped to device pixels. */
+  place(pane_width, pane_height) {
+    const ratio = window.devicePixelRatio || 1;
+    const scale = this.zoom_in(pane_width, pane_height) / ratio;
+    const [x, y] = this.fits ? [this.#width / 2, this.#height / 2] : this.#center;
+    const snap = (value) => Math.round(value * ratio) / ratio;
+    return { scale, left: snap(pane_width / 2 - x * scale), top: snap(pane_height / 2 - y * scale) };
+  }
+
+  fit() {
+    this.#zoom = null;
+    this.#center = [this.#width / 2, this.#height / 2];
+    this.#changed();
+  }
+
+  /** Zooms so that the picture's point (x, y) stays where it is in the pane; `pane` is {width, height}. */
+  zoom_to(zoom, pane, x = null, y = null) {
+    const before = this.place(pane.width, pane.height);
+    const ratio = window.devicePixelRatio || 1;
+    const middle_x = (pane.width / 2 - before.left) / before.scale;
+    const middle_y = (pane.height / 2 - before.top) / before.scale;
+    const [anchor_x, anchor_y] = [x ?? middle_x, y ?? middle_y];
+    const shrink = before.scale / (zoom / ratio);
+    this.#zoom = zoom;
+    this.#move_center(anchor_x + (middle_x - anchor_x) * shrink, anchor_y + (middle_y - anchor_y) * shrink);
+  }
+
+  /** To the next step in (+1) or out (-1). */
+  step(direction, pane, x = null, y = null) {
+    const now = this.zoom_in(pane.width, pane.height);
+    const next = direction > 0 ? STEPS.find((step) => step > now * 1.001)
+                               : STEPS.findLast((step) => step < now * 0.999);
+    if (next !== undefined) this.zoom_to(next, pane, x, y);
+  }
+
+  /** Moves the picture by CSS pixels in a pane of that size. */
+  pan(dx, dy, pane) {
+    if (this.fits) return;
+    const { scale } = this.place(pane.width, pane.height);
+    this.#move_center(this.#center[0] - dx / scale, this.#center[1] - dy / scale);
+  }
+
+  /** Shows the pixel (x, y) in the middle, and marks it. */
+  show_pixel(x, y, zoom) {
+    this.#zoom = zoom;
+    this.#cursor = [x, y];
+    this.#move_center(x + 0.5, y + 0.5);
+    this.#inspect();
+  }
+
+  /** Marks a pixel, or none with null. */
+  set_cursor(pixel) {
+    const inside = pixel && pixel[0] >= 0 && pixel[1] >= 0 && pixel[0] < this.#width && pixel[1] < this.#height;
+    this.#cursor = inside ? pixel : null;
+    this.dispatchEvent(new Event("cursor"));
+  }
+
+  /** Moves the mark by whole pixels, within the picture; the view follows it. */
+  move_cursor(dx, dy) {
+    const [x, y] = this.#cursor ?? this.#center.map(Math.floor);
+    const clamp = (value, limit) => Math.min(limit - 1, Math.max(0, value));
+    const start = this.#cursor ? [dx, dy] : [0, 0];
+    this.#cursor = [clamp(x + start[0], this.#width), clamp(y + start[1], this.#height)];
+    if (!this.fits) this.#move_center(this.#cursor[0] + 0.5, this.#cursor[1] + 0.5);
+    this.#inspect();
+  }
+
+  #move_center(x, y) {
+    this.#center = [Math.min(this.#width, Math.max(0, x)), Math.min(this.#height, Math.max(0, y))];
+    this.#changed();
+  }
+
+  /** The user turned to one pixel on purpose, not just passed over it. */
+  #inspect() {
+    this.dispatchEvent(new Event("cursor"));
+    this.dispatchEvent(new Event("inspect"));
+  }
+
+  #changed() {
+    this.dispatchEvent(new Event("view"));
+  }
+}
