@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstring>
-#include <regex>
+#include <utility>
 
 #include "renderer/errors.h"
 
@@ -23,11 +25,12 @@ struct Noun {
     PFNGLISBUFFERPROC Functions::*exists;
 };
 
+/// A word comes before those that it ends with.
 constexpr std::array nouns{
-    Noun{"buffer", GL_BUFFER, &Functions::IsBuffer},
-    Noun{"texture", GL_TEXTURE, &Functions::IsTexture},
     Noun{"framebuffer", GL_FRAMEBUFFER, &Functions::IsFramebuffer},
     Noun{"renderbuffer", GL_RENDERBUFFER, &Functions::IsRenderbuffer},
+    Noun{"buffer", GL_BUFFER, &Functions::IsBuffer},
+    Noun{"texture", GL_TEXTURE, &Functions::IsTexture},
     Noun{"program", GL_PROGRAM, &Functions::IsProgram},
     Noun{"shader", GL_SHADER, &Functions::IsShader},
     Noun{"query", GL_QUERY, &Functions::IsQuery},
@@ -35,36 +38,41 @@ constexpr std::array nouns{
     Noun{"vertex array", GL_VERTEX_ARRAY, &Functions::IsVertexArray},
 };
 
-std::string label_of(const Functions& gl, std::string word, const std::string& number) {
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+void trim_end(std::string_view& text) {
+    text.remove_suffix(text.size() - (text.find_last_not_of(" =(") + 1));
+}
+
+/// The label of the object of this number, if the words before the number say of what kind it is.
+std::string label_of(const Functions& gl, std::string_view words_before, std::string_view number) {
+    std::string lower(words_before);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    std::string_view words = lower;
+    trim_end(words);
+    if (words.ends_with(" object")) words.remove_suffix(std::string_view("object").size());
+    trim_end(words);
     GLuint id = 0;
-    const char* end = number.data() + number.size();
-    if (std::from_chars(number.data(), end, id).ec != std::errc{}) return {};
-    for (const Noun& noun : nouns) {
-        if (noun.word != word || (gl.*noun.exists)(id) == GL_FALSE) continue;
-        std::array<GLchar, 256> label{};
-        GLsizei length = 0;
-        gl.GetObjectLabel(noun.identifier, id, static_cast<GLsizei>(label.size()), &length, label.data());
-        return {label.data(), static_cast<std::size_t>(length)};
-    }
-    return {};
+    if (std::from_chars(number.data(), number.data() + number.size(), id).ec != std::errc{}) return {};
+    const auto noun = std::ranges::find_if(nouns, [&](const Noun& one) { return words.ends_with(one.word); });
+    if (noun == nouns.end() || (gl.*noun->exists)(id) == GL_FALSE) return {};
+    std::array<GLchar, 256> label{};
+    GLsizei length = 0;
+    gl.GetObjectLabel(noun->identifier, id, static_cast<GLsizei>(label.size()), &length, label.data());
+    return {label.data(), static_cast<std::size_t>(length)};
 }
 
 /// The message with the label after each object that it speaks of by number: "program 3" to "program 3 'blend'".
-std::string with_labels(const Functions& gl, const std::string& message) {
-    const std::regex object(
-        "(buffer|texture|framebuffer|renderbuffer|program|shader|query|sampler|vertex array)"
-        "(?: object)?[ =(]+([0-9]+)",
-        std::regex::icase);
+std::string with_labels(const Functions& gl, std::string_view message) {
+    constexpr std::string_view digits = "0123456789";
     std::string text;
-    auto rest = message.cbegin();
-    for (std::sregex_iterator match(message.begin(), message.end(), object), end; match != end; ++match) {
-        text.append(rest, (*match)[0].second);
-        rest = (*match)[0].second;
-        const std::string label = label_of(gl, (*match)[1], (*match)[2]);
+    std::size_t end = 0;
+    for (std::size_t begin; (begin = message.find_first_of(digits, end)) != message.npos;) {
+        const std::size_t after = std::min(message.find_first_not_of(digits, begin), message.size());
+        text += message.substr(end, after - end);
+        end = after;
+        const std::string label = label_of(gl, message.substr(0, begin), message.substr(begin, after - begin));
         if (!label.empty()) text += fmt::format(" '{}'", label);
     }
-    return text.append(rest, message.cend());
+    return text.append(message.substr(end));
 }
 
 std::string error_name(GLenum error) {

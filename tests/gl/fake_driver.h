@@ -1,0 +1,38 @@
+#pragma once
+#include <map>
+#include <string_view>
+
+#include "renderer/gl/functions.h"
+
+namespace sheer::gl {
+
+/// Answers what making a context asks of a driver: the version and the strings, which `Device` has as the constants
+/// `major`, `minor` and `renderer`. Every other function does nothing.
+template <typename Device>
+class FakeDriver {
+  public:
+    static void* resolve(const char* name) {
+        static const std::map<std::string_view, void*> answers{
+            {"glGetIntegerv", reinterpret_cast<void*>(&get_integer)},
+            {"glGetString", reinterpret_cast<void*>(&get_string)},
+            {"glGetError", reinterpret_cast<void*>(&get_error)},
+            {"glDebugMessageCallback", reinterpret_cast<void*>(&debug_message_callback)},
+            {"glDebugMessageControl", reinterpret_cast<void*>(&debug_message_control)}};
+        const auto found = answers.find(name);
+        return found == answers.end() ? reinterpret_cast<void*>(&enable) : found->second;
+    }
+
+  private:
+    static void APIENTRY get_integer(GLenum name, GLint* value) {
+        *value = name == GL_MAJOR_VERSION ? Device::major : name == GL_MINOR_VERSION ? Device::minor : 0;
+    }
+    static const GLubyte* APIENTRY get_string(GLenum name) {
+        return reinterpret_cast<const GLubyte*>(name == GL_RENDERER ? Device::renderer : "");
+    }
+    static GLenum APIENTRY get_error() { return GL_NO_ERROR; }
+    static void APIENTRY enable(GLenum) {}
+    static void APIENTRY debug_message_callback(GLDEBUGPROC, const void*) {}
+    static void APIENTRY debug_message_control(GLenum, GLenum, GLenum, GLsizei, const GLuint*, GLboolean) {}
+};
+
+}  // namespace sheer::gl
