@@ -1,0 +1,36 @@
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "server/jobs/store.h"
+
+namespace sheer {
+
+/// Files named by the SHA-256 of their bytes: FOLDER/ab/ab12... A file is there whole and on the disk, or not at all.
+class BlobStore {
+  public:
+    /// Makes the folder if need be. Throws StoreError.
+    explicit BlobStore(std::filesystem::path folder);
+
+    /// Keeps `bytes`; does nothing if they are there already. Throws StoreError, also if `sha256` is not theirs.
+    void put(const std::string& sha256, const std::string& bytes);
+    std::optional<std::filesystem::path> find(const std::string& sha256) const;
+    void remove(const std::string& sha256);
+    /// Removes the unfinished files of writers that were killed: those older than `age`.
+    void remove_leftovers(std::chrono::seconds age);
+
+  private:
+    std::filesystem::path path_of(const std::string& sha256) const;
+
+    std::filesystem::path m_folder;
+};
+
+/// Whether `text` is 64 digits of lower-case hexadecimal.
+bool is_sha256(const std::string& text);
+
+/// The bytes of a file. Throws StoreError if it cannot be read or is longer than `max_bytes`.
+std::string read_file(const std::filesystem::path& path, std::uintmax_t max_bytes);
+
+}  // namespace sheer

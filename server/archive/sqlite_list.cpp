@@ -1,0 +1,104 @@
+#include "server/archive/sqlite_guard.h"
+#include "server/archive/sqlite_store.h"
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+/// `text` for LIKE ... ESCAPE '\', to be found anywhere.
+std::string like_pattern(const std::string& text) {
+    std::string pattern = "%";
+    for (const char c : text) {
+        if (c == '%' || c == '_' || c == '\\') pattern += '\\';
+        pattern += c;
+    }
+    return pattern + "%";
+}
+
+struct Query {
+    std::string where = "1";
+    std::vector<std::string> values;
+
+    void add(const std::string& condition, const std::vector<std::string>& more_values) {
+        where += " AND " + condition;
+        values.insert(values.end(), more_values.begin(), more_values.end());
+    }
+};
+
+Query query_of(const ListFilter& filter) {
+    Query query;
+    if (filter.status) query.add("status = ?", {std::string(status_text(*filter.status))});
+    if (!filter.scene.empty()) query.add("scene = ?", {filter.scene});
+    if (!filter.before_id.empty()) query.add("id < ?", {filter.before_id});
+    if (!filter.method.empty())
+        query.add("EXISTS (SELECT 1 FROM report_methods m WHERE m.report_id = id AND m.method = lower(?))",
+                  {filter.method});
+    if (!filter.q.empty()) {
+        const std::string pattern = like_pattern(filter.q);
+        query.add(
+            "(title LIKE ? ESCAPE '\\' OR EXISTS (SELECT 1 FROM report_tags t WHERE t.report_id = id AND t.value "
+            "LIKE ? ESCAPE '\\'))",
+            {pattern, pattern});
+    }
+    if (!filter.tag.empty()) {
+        const std::size_t colon = filter.tag.find(':');
+        const std::string name = filter.tag.substr(0, colon);
+        if (colon == std::string::npos) {
+            query.add("EXISTS (SELECT 1 FROM report_tags t WHERE t.report_id = id AND t.name = ?)", {name});
+        } else {
+            query.add("EXISTS (SELECT 1 FROM report_tags t WHERE t.report_id = id AND t.name = ? AND t.value = ?)",
+                      {name, filter.tag.substr(colon + 1)});
+        }
+    }
+    return query;
+}
+
+ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
+    ReportSummary summary{.id = row.getColumn(0).getString()};
+    summary.status = status_from(row.getColumn(1).getString()).value_or(Status::failed);
+    summary.progress = row.getColumn(2).getDouble();
+    summary.created_ms = row.getColumn(3).getInt64();
+    if (!row.getColumn(4).isNull()) summary.finished_ms = row.getColumn(4).getInt64();
+    summary.title = row.getColumn(5).getString();
+    summary.scene = row.getColumn(6).getString();
+    summary.spec_sha256 = row.getColumn(7).getString();
+    if (!row.getColumn(8).isNull())
+        summary.error = JobError{row.getColumn(8).getString(), row.getColumn(9).getString()};
+    summary.verdict = row.getColumn(10).getString();
+    if (!row.getColumn(11).isNull()) summary.preview = json::parse(row.getColumn(11).getString());
+    SQLite::Statement methods(database, "SELECT method FROM report_methods WHERE report_id = ? ORDER BY position");
+    methods.bind(1, summary.id);
+    while (methods.executeStep()) summary.methods.push_back(methods.getColumn(0).getString());
+    SQLite::Statement tags(database, "SELECT name, value FROM report_tags WHERE report_id = ?");
+    tags.bind(1, summary.id);
+    while (tags.executeStep()) summary.tags[tags.getColumn(0).getString()] = tags.getColumn(1).getString();
+    return summary;
+}
+
+}  // namespace
+
+ReportPage SqliteStore::list(const ListFilter& filter) {
+    const Query query = query_of(filter);
+    return guarded(m_mutex, [&] {
+        // One transaction, so that the lines and their methods and tags are of the same moment.
+        SQLite::Transaction transaction(m_database, SQLite::TransactionBehavior::DEFERRED);
+        SQLite::Statement rows(m_database,
+                               "SELECT id, status, progress, created_ms, finished_ms, title, scene, spec_sha256, "
+                               "error_title, error_detail, verdict, preview FROM reports WHERE " +
+                                   query.where + " ORDER BY id DESC LIMIT ?");
+        int index = 0;
+        for (const std::string& value : query.values) rows.bind(++index, value);
+        rows.bind(++index, filter.limit + 1);
+        ReportPage page;
+        while (rows.executeStep()) {
+            page.more = static_cast<int>(page.reports.size()) == filter.limit;
+            if (page.more) break;
+            page.reports.push_back(summary_of(m_database, rows));
+        }
+        return page;
+    });
+}
+
+}  // namespace sheer

@@ -1,0 +1,218 @@
+#include "server/archive/sqlite_store.h"
+
+#include <fmt/format.h>
+
+#include "embedded_server_files.h"
+#include "server/archive/sqlite_guard.h"
+#include "server/jobs/facets.h"
+
+namespace sheer {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int schema_version = 1;
+constexpr int busy_timeout_ms = 10'000;
+constexpr std::chrono::hours leftover_age{1};
+
+SQLite::Database open_database(const fs::path& folder) {
+    try {
+        fs::create_directories(folder);
+        SQLite::Database database((folder / "archive.sqlite").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                                  busy_timeout_ms);
+        database.exec("PRAGMA journal_mode = WAL");
+        database.exec("PRAGMA synchronous = FULL");
+        database.exec("PRAGMA foreign_keys = ON");
+        return database;
+    } catch (const std::exception& error) {
+        throw StoreError(fmt::format("cannot open the archive in {}: {}", folder.string(), error.what()));
+    }
+}
+
+std::string schema_text() {
+    for (const EmbeddedFile& file : embedded_server_files())
+        if (file.path == "schema.sql") return std::string(file.bytes);
+    throw StoreError("the program was built without schema.sql");
+}
+
+std::optional<std::int64_t> optional_int(SQLite::Column column) {
+    if (column.isNull()) return std::nullopt;
+    return column.getInt64();
+}
+
+std::optional<JobError> error_of(SQLite::Column title, SQLite::Column detail) {
+    if (title.isNull()) return std::nullopt;
+    return JobError{title.getString(), detail.getString()};
+}
+
+Status status_of(SQLite::Column column) {
+    const auto status = status_from(column.getString());
+    if (!status) throw StoreError("archive: unknown status " + column.getString());
+    return *status;
+}
+
+}  // namespace
+
+SqliteStore::SqliteStore(const fs::path& folder, LeaseRules rules, ClockMs clock)
+    : m_rules(rules),
+      m_clock(std::move(clock)),
+      m_blobs(folder / "blobs"),
+      m_database(open_database(folder)),
+      m_watch(open_database(folder)) {
+    migrate();
+    m_blobs.remove_leftovers(leftover_age);
+}
+
+void SqliteStore::migrate() {
+    transacted(m_mutex, m_database, [&] {
+        const int version = m_database.execAndGet("PRAGMA user_version").getInt();
+        if (version == schema_version) return;
+        if (version != 0)
+            throw StoreError(
+                fmt::format("the archive has version {}, this program knows version {}", version, schema_version));
+        m_database.exec(schema_text());
+        m_database.exec(fmt::format("PRAGMA user_version = {}", schema_version));
+    });
+}
+
+SubmitResult SqliteStore::submit(const NewReport& report, std::size_t max_queued) {
+    using Outcome = SubmitResult::Outcome;
+    return transacted(m_mutex, m_database, [&]() -> SubmitResult {
+        if (report.idempotency) {
+            SQLite::Statement known(m_database, "SELECT id, body_sha256 FROM reports WHERE idempotency_key = ?");
+            known.bind(1, report.idempotency->key);
+            if (known.executeStep()) {
+                const bool same = known.getColumn(1).getString() == report.idempotency->body_sha256;
+                return {same ? Outcome::repeated : Outcome::key_reused, known.getColumn(0).getString()};
+            }
+        }
+        const auto queued = m_database.execAndGet("SELECT count(*) FROM reports WHERE status = 'queued'").getInt64();
+        if (static_cast<std::size_t>(queued) >= max_queued) return {Outcome::queue_full, ""};
+        insert_report(report);
+        return {Outcome::created, report.id};
+    });
+}
+
+void SqliteStore::insert_report(const NewReport& report) {
+    const Facets facets = facets_of(json::parse(report.spec));
+    SQLite::Statement insert(m_database,
+                             "INSERT INTO reports (id, status, created_ms, title, scene, spec, spec_sha256, "
+                             "idempotency_key, body_sha256) VALUES (?, 'queued', ?, ?, ?, ?, ?, ?, ?)");
+    SQLite::bind(insert, report.id, m_clock(), facets.title, facets.scene, report.spec, report.spec_sha256);
+    if (report.idempotency) {
+        insert.bind(7, report.idempotency->key);
+        insert.bind(8, report.idempotency->body_sha256);
+    }
+    insert.exec();
+    for (std::size_t i = 0; i < facets.methods.size(); ++i) {
+        SQLite::Statement method(m_database, "INSERT INTO report_methods VALUES (?, ?, ?)");
+        SQLite::bind(method, report.id, static_cast<std::int64_t>(i), facets.methods[i]);
+        method.exec();
+    }
+    for (const auto& [name, value] : facets.tags.items()) {
+        SQLite::Statement tag(m_database, "INSERT INTO report_tags VALUES (?, ?, ?)");
+        SQLite::bind(tag, report.id, name, value.get<std::string>());
+        tag.exec();
+    }
+}
+
+std::optional<ReportRecord> SqliteStore::find(const std::string& id) {
+    return guarded(m_mutex, [&]() -> std::optional<ReportRecord> {
+        SQLite::Statement row(m_database,
+                              "SELECT status, progress, stage, revision, created_ms, finished_ms, spec, spec_sha256, "
+                              "error_title, error_detail, coalesce(report, '') FROM reports WHERE id = ?");
+        row.bind(1, id);
+        if (!row.executeStep()) return std::nullopt;
+        ReportRecord record{.id = id, .status = status_of(row.getColumn(0))};
+        record.progress = row.getColumn(1).getDouble();
+        record.stage = row.getColumn(2).getString();
+        record.revision = row.getColumn(3).getInt64();
+        record.created_ms = row.getColumn(4).getInt64();
+        record.finished_ms = optional_int(row.getColumn(5));
+        record.spec = row.getColumn(6).getString();
+        record.spec_sha256 = row.getColumn(7).getString();
+        record.error = error_of(row.getColumn(8), row.getColumn(9));
+        record.report = row.getColumn(10).getString();
+        return record;
+    });
+}
+
+RemoveResult SqliteStore::remove(const std::string& id) {
+    std::vector<std::string> candidates;
+    const RemoveResult result = transacted(m_mutex, m_database, [&] {
+        SQLite::Statement row(m_database, "SELECT status FROM reports WHERE id = ?");
+        row.bind(1, id);
+        if (!row.executeStep()) return RemoveResult::not_found;
+        const Status status = status_of(row.getColumn(0));
+        row.reset();
+        if (status == Status::queued) {
+            end_attempt(id, {}, Status::cancelled);
+            return RemoveResult::cancelled;
+        }
+        if (status == Status::running) {
+            SQLite::Statement ask(m_database, "UPDATE reports SET cancel_requested = 1 WHERE id = ?");
+            ask.bind(1, id);
+            ask.exec();
+            return RemoveResult::cancelling;
+        }
+        SQLite::Statement named(m_database, "SELECT sha256 FROM report_blobs WHERE report_id = ?");
+        named.bind(1, id);
+        while (named.executeStep()) candidates.push_back(named.getColumn(0).getString());
+        named.reset();
+        SQLite::Statement gone(m_database, "DELETE FROM reports WHERE id = ?");
+        gone.bind(1, id);
+        gone.exec();
+        return RemoveResult::deleted;
+    });
+    if (result == RemoveResult::deleted) remove_blobs(candidates);
+    return result;
+}
+
+void SqliteStore::remove_blobs(const std::vector<std::string>& candidates) {
+    // The rows go first and the files after the commit: if the machine stops in between, a file too many is left, never
+    // one too few. Both steps hold the write lock, so that no commit of a worker can come to rely on a file that goes.
+    std::vector<std::string> unnamed;
+    transacted(m_mutex, m_database, [&] {
+        for (const std::string& sha256 : candidates) {
+            SQLite::Statement drop(m_database,
+                                   "DELETE FROM blobs WHERE sha256 = ?1 AND NOT EXISTS "
+                                   "(SELECT 1 FROM report_blobs WHERE sha256 = ?1)");
+            drop.bind(1, sha256);
+            if (drop.exec() > 0) unnamed.push_back(sha256);
+        }
+    });
+    transacted(m_mutex, m_database, [&] {
+        for (const std::string& sha256 : unnamed) {
+            SQLite::Statement named(m_database, "SELECT 1 FROM blobs WHERE sha256 = ?");
+            named.bind(1, sha256);
+            if (!named.executeStep()) m_blobs.remove(sha256);
+        }
+    });
+}
+
+std::optional<Blob> SqliteStore::find_blob(const std::string& sha256) {
+    return guarded(m_mutex, [&]() -> std::optional<Blob> {
+        SQLite::Statement row(m_database, "SELECT media_type FROM blobs WHERE sha256 = ?");
+        row.bind(1, sha256);
+        if (!row.executeStep()) return std::nullopt;
+        const auto path = m_blobs.find(sha256);
+        if (!path) throw StoreError("archive: the file of blob " + sha256 + " is missing");
+        return Blob{sha256, row.getColumn(0).getString(), *path};
+    });
+}
+
+std::int64_t SqliteStore::change_counter() {
+    return guarded(m_watch_mutex, [&] { return m_watch.execAndGet("PRAGMA data_version").getInt64(); });
+}
+
+std::optional<std::int64_t> SqliteStore::last_rendered_ms() {
+    return guarded(m_mutex, [&]() -> std::optional<std::int64_t> {
+        SQLite::Statement row(m_database, "SELECT last_rendered_ms FROM health");
+        if (!row.executeStep()) return std::nullopt;
+        return row.getColumn(0).getInt64();
+    });
+}
+
+}  // namespace sheer

@@ -1,0 +1,43 @@
+#include "server/jobs/facets.h"
+
+#include <algorithm>
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+/// The value at `pointer`, or null.
+json at(const json& document, const char* pointer) {
+    return document.value(json::json_pointer(pointer), json());
+}
+
+std::string text_at(const json& document, const char* pointer) {
+    const json value = at(document, pointer);
+    return value.is_string() ? value.get<std::string>() : std::string();
+}
+
+}  // namespace
+
+Facets facets_of(const json& spec) {
+    Facets facets{.title = text_at(spec, "/title"), .scene = text_at(spec, "/scene/type")};
+    for (const json& method : at(spec, "/methods")) {
+        std::string id = method.is_string() ? method.get<std::string>() : text_at(method, "/id");
+        if (std::ranges::find(facets.methods, id) == facets.methods.end()) facets.methods.push_back(std::move(id));
+    }
+    const json tags = at(spec, "/tags");
+    for (const auto& [name, value] : tags.items())
+        if (tags.is_object() && value.is_string()) facets.tags[name] = value;
+    return facets;
+}
+
+json preview_of(const json& report) {
+    for (const char* pointer : {"/runs/0/reference/images/color", "/runs/0/results/0/images/color"}) {
+        const json image = at(report, pointer);
+        if (image.is_object() && image.contains("url")) return image;
+    }
+    return nullptr;
+}
+
+}  // namespace sheer

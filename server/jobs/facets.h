@@ -1,0 +1,23 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace sheer {
+
+/// What the archive can be searched by.
+struct Facets {
+    std::string title;
+    std::string scene;                               ///< type
+    std::vector<std::string> methods;                ///< ids, in the order of the spec, each once
+    nlohmann::json tags = nlohmann::json::object();  ///< texts by name
+};
+
+/// From the normalised spec of a report.
+Facets facets_of(const nlohmann::json& spec);
+
+/// The picture that stands for a done report: the reference of its first point, or its first method's; null if it has
+/// none.
+nlohmann::json preview_of(const nlohmann::json& report);
+
+}  // namespace sheer

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+
+#include "server/jobs/status.h"
+
+namespace sheer {
+
+/// A worker that runs a job holds a lease on it, which it renews by heartbeats. A lease that runs out means that the
+/// worker is gone, and the job goes to another.
+struct LeaseRules {
+    std::int64_t lease_ms = 10'000;
+    std::int64_t heartbeat_ms = 1'000;
+    int max_attempts = 2;  ///< a job that takes its worker or renderer down this often is given up
+};
+
+/// What becomes of a job whose attempt number `attempts` (from 1) ended without a report through no fault of the spec.
+inline Status after_lost_attempt(int attempts, bool cancel_requested, const LeaseRules& rules) {
+    if (cancel_requested) return Status::cancelled;
+    return attempts < rules.max_attempts ? Status::queued : Status::failed;
+}
+
+}  // namespace sheer

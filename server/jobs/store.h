@@ -1,0 +1,167 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "server/jobs/status.h"
+
+namespace sheer {
+
+/// The store could not do what was asked: disk full, archive damaged, database locked for too long.
+class StoreError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// What a failed report tells its reader.
+struct JobError {
+    std::string title;
+    std::string detail;
+};
+
+/// The caller's name for a request, by which a repeated one is known.
+struct IdempotencyKey {
+    std::string key;
+    std::string body_sha256;
+};
+
+struct NewReport {
+    std::string id;
+    std::string spec;  ///< canonical text of the normalised spec
+    std::string spec_sha256;
+    std::optional<IdempotencyKey> idempotency;
+};
+
+struct SubmitResult {
+    enum class Outcome { created, repeated, key_reused, queue_full };
+    Outcome outcome = Outcome::created;
+    std::string id;  ///< of the new report, or of the one the key already names
+};
+
+/// A report or the job that will become one.
+struct ReportRecord {
+    std::string id;
+    Status status = Status::queued;
+    double progress = 0;        ///< 0..1
+    std::string stage;          ///< what the renderer is at
+    std::int64_t revision = 0;  ///< grows with every change that a reader can see
+    std::int64_t created_ms = 0;
+    std::optional<std::int64_t> finished_ms;
+    std::string spec;
+    std::string spec_sha256;
+    std::optional<JobError> error;  ///< of a failed one
+    std::string report;             ///< JSON text of a done one, else empty
+};
+
+/// A line of the archive's list.
+struct ReportSummary {
+    std::string id;
+    Status status = Status::queued;
+    double progress = 0;
+    std::int64_t created_ms = 0;
+    std::optional<std::int64_t> finished_ms;
+    std::string title;
+    std::string scene;
+    std::string spec_sha256;
+    std::optional<JobError> error;
+    std::vector<std::string> methods;  ///< ids, in the order of the spec
+    nlohmann::json tags = nlohmann::json::object();
+    std::string verdict;               ///< empty until done
+    nlohmann::json preview = nullptr;  ///< image object of a done one, or null
+};
+
+/// Which reports to list; an empty field asks for all.
+struct ListFilter {
+    std::string q;       ///< part of the title or of a tag's value, without regard to case
+    std::string tag;     ///< "name" or "name:value"
+    std::string method;  ///< id
+    std::string scene;   ///< type
+    std::optional<Status> status;
+    std::string before_id;  ///< only reports older than this one
+    int limit = 20;
+};
+
+struct ReportPage {
+    std::vector<ReportSummary> reports;  ///< newest first
+    bool more = false;                   ///< whether older ones match as well
+};
+
+enum class RemoveResult { not_found, cancelled, cancelling, deleted };
+
+/// A worker's right to run a job. It ends when the job ends, or when another worker got the job.
+struct Lease {
+    std::string id;
+    std::string owner;  ///< name of the worker
+    int attempt = 0;    ///< from 1
+    std::string spec;
+    std::string spec_sha256;
+    std::int64_t created_ms = 0;
+};
+
+enum class LeaseState { held, cancel_requested, lost };
+
+/// A picture to be kept, as a file outside the store.
+struct BlobFile {
+    std::string sha256;
+    std::string media_type;
+    std::filesystem::path path;
+};
+
+struct FinishedReport {
+    nlohmann::json report;
+    std::int64_t finished_ms = 0;
+    std::vector<BlobFile> blobs;  ///< every picture that `report` names
+};
+
+struct Blob {
+    std::string sha256;
+    std::string media_type;
+    std::filesystem::path path;
+};
+
+/// The queue of jobs and the archive of reports, shared by the service and its workers. All calls may be made from any
+/// thread and any process, take effect whole or not at all, and throw StoreError when they fail.
+class Store {
+  public:
+    virtual ~Store() = default;
+
+    // The service's side.
+
+    /// Queues a report, unless `max_queued` wait already or its idempotency key is known.
+    virtual SubmitResult submit(const NewReport& report, std::size_t max_queued) = 0;
+    virtual std::optional<ReportRecord> find(const std::string& id) = 0;
+    virtual ReportPage list(const ListFilter& filter) = 0;
+    /// Cancels a queued report, asks the worker to cancel a running one, deletes a final one with the pictures that no
+    /// other report names.
+    virtual RemoveResult remove(const std::string& id) = 0;
+    virtual std::optional<Blob> find_blob(const std::string& sha256) = 0;
+    /// A number that differs from the last call's if anything was written between the two.
+    virtual std::int64_t change_counter() = 0;
+    /// When a worker last rendered something.
+    virtual std::optional<std::int64_t> last_rendered_ms() = 0;
+
+    // The workers' side.
+
+    /// The oldest queued job, now running under `owner`; jobs whose lease ran out are dealt with first.
+    virtual std::optional<Lease> lease(const std::string& owner) = 0;
+    /// Renews the lease and keeps the progress.
+    virtual LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) = 0;
+    /// The same question without renewing anything: cheap enough to ask often.
+    virtual LeaseState state(const Lease& lease) = 0;
+    /// Makes the report done with all its pictures, once. Returns false if the lease was lost or the job cancelled.
+    virtual bool commit(const Lease& lease, const FinishedReport& finished) = 0;
+    /// Ends the attempt without a report; `retry` if another attempt could succeed.
+    virtual void fail(const Lease& lease, const JobError& error, bool retry) = 0;
+    /// Ends the attempt because the job was cancelled.
+    virtual void cancel(const Lease& lease) = 0;
+    /// Gives the job back as if it had not been tried.
+    virtual void release(const Lease& lease) = 0;
+    /// Ends the leases of a worker that is known to be dead.
+    virtual void end_leases_of(const std::string& owner) = 0;
+    virtual void note_rendered() = 0;
+};
+
+}  // namespace sheer
