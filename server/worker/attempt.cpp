@@ -1,0 +1,116 @@
+#include "server/worker/attempt.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+
+#include "server/worker/report_folder.h"
+#include "server/worker/scratch.h"
+
+namespace sheer {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+namespace {
+
+// Each write of progress waits for the disk and so disturbs what is being timed.
+constexpr auto progress_interval = 250ms;
+constexpr auto question_interval = 200ms;
+
+constexpr int exit_check_failed = 1;
+
+void write_text(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw StoreError("cannot write " + path.string());
+}
+
+}  // namespace
+
+Attempt::Attempt(Store& store, const WorkerOptions& options, const ClockMs& clock, const Lease& lease, StopSignal& stop)
+    : m_store(store), m_options(options), m_clock(clock), m_lease(lease), m_stop(stop) {}
+
+void Attempt::run() {
+    const ScratchFolder scratch(m_options.data / "scratch", m_lease.id, m_lease.attempt);
+    const fs::path spec = scratch.path() / "spec.json", out = scratch.path() / "out";
+    write_text(spec, m_lease.spec);
+    spdlog::info("job {} starts, attempt {}", m_lease.id, m_lease.attempt);
+    conclude(run_child(child_run(spec, out)), out);
+}
+
+ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
+    ChildRun run;
+    run.options.program = m_options.program;
+    run.options.arguments = {"render", spec.string(), "--out", out.string()};
+    run.options.memory_limit_bytes = m_options.memory_limit_bytes;
+    run.time_limit = m_options.time_limit;
+    run.wake_descriptor = m_stop.descriptor();
+    run.on_line = [this](const std::string& line) { read_line(line); };
+    run.keep_going = [this] { return !m_stop.requested() && keep_lease(); };
+    return run;
+}
+
+void Attempt::read_line(const std::string& line) {
+    const ChildMessage message = read_child_message(line);
+    if (const auto* error = std::get_if<JobError>(&message)) m_error = *error;
+    if (const auto* progress = std::get_if<ChildProgress>(&message)) {
+        m_rendered = m_rendered || progress->fraction > m_progress.fraction;
+        m_progress = *progress;
+        m_unsaved_progress = true;
+    }
+}
+
+bool Attempt::keep_lease() {
+    const SteadyTime now = std::chrono::steady_clock::now();
+    const auto since_heartbeat = now - m_last_heartbeat;
+    const bool beat = since_heartbeat >= std::chrono::milliseconds(m_options.rules.heartbeat_ms) ||
+                      (m_unsaved_progress && since_heartbeat >= progress_interval);
+    if (beat) {
+        m_state = m_store.heartbeat(m_lease, m_progress.fraction, m_progress.stage);
+        if (m_rendered) m_store.note_rendered();
+        m_unsaved_progress = m_rendered = false;
+        m_last_heartbeat = now;
+    } else if (now - m_last_question >= question_interval) {
+        m_state = m_store.state(m_lease);
+        m_last_question = now;
+    }
+    return m_state == LeaseState::held;
+}
+
+void Attempt::conclude(const ChildResult& result, const fs::path& out) {
+    if (result.timed_out) {
+        const auto limit_s = std::chrono::duration_cast<std::chrono::seconds>(m_options.time_limit).count();
+        spdlog::warn("job {} was stopped after {} s", m_lease.id, limit_s);
+        m_store.fail(m_lease, {"Rendering took too long", fmt::format("It was stopped after {} s.", limit_s)}, false);
+    } else if (result.stopped && m_state == LeaseState::cancel_requested) {
+        spdlog::info("job {} is cancelled", m_lease.id);
+        m_store.cancel(m_lease);
+    } else if (result.stopped && m_state == LeaseState::lost) {
+        spdlog::warn("job {} is no longer ours", m_lease.id);
+    } else if (result.stopped) {
+        spdlog::info("job {} goes back to the queue", m_lease.id);
+        m_store.release(m_lease);
+    } else if (result.status.code == 0 || result.status.code == exit_check_failed) {
+        const bool kept = m_store.commit(m_lease, read_report_folder(out, m_lease, m_clock()));
+        spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before its end");
+    } else {
+        conclude_failure(result.status);
+    }
+}
+
+void Attempt::conclude_failure(const ExitStatus& status) {
+    if (status.signal != 0) {
+        spdlog::error("job {}: the renderer died (signal {})", m_lease.id, status.signal);
+        m_store.fail(m_lease, {"Rendering failed", fmt::format("The renderer died (signal {}).", status.signal)}, true);
+        return;
+    }
+    const JobError unexplained{"Rendering failed", fmt::format("The renderer ended with exit code {}.", status.code)};
+    const JobError error = m_error.value_or(unexplained);
+    spdlog::error("job {}: exit code {}: {}: {}", m_lease.id, status.code, error.title, error.detail);
+    m_store.fail(m_lease, error, false);
+}
+
+}  // namespace sheer

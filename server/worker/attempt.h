@@ -1,0 +1,41 @@
+#pragma once
+#include <chrono>
+#include <optional>
+
+#include "server/worker/child_message.h"
+#include "server/worker/run_child.h"
+#include "server/worker/worker.h"
+
+namespace sheer {
+
+/// One try at a leased job: renders in a child, keeps the lease meanwhile, and ends the lease one way or the other.
+class Attempt {
+  public:
+    Attempt(Store& store, const WorkerOptions& options, const ClockMs& clock, const Lease& lease, StopSignal& stop);
+    /// Throws what the store and the file system throw; the lease is then still held.
+    void run();
+
+  private:
+    using SteadyTime = std::chrono::steady_clock::time_point;
+
+    ChildRun child_run(const std::filesystem::path& spec, const std::filesystem::path& out);
+    void read_line(const std::string& line);
+    bool keep_lease();
+    void conclude(const ChildResult& result, const std::filesystem::path& out);
+    void conclude_failure(const ExitStatus& status);
+
+    Store& m_store;
+    const WorkerOptions& m_options;
+    const ClockMs& m_clock;
+    const Lease& m_lease;
+    StopSignal& m_stop;
+    ChildProgress m_progress;
+    std::optional<JobError> m_error;  ///< what the child said went wrong
+    bool m_unsaved_progress = false;
+    bool m_rendered = false;  ///< whether progress was made since the last heartbeat
+    LeaseState m_state = LeaseState::held;
+    SteadyTime m_last_heartbeat{};
+    SteadyTime m_last_question{};
+};
+
+}  // namespace sheer

@@ -1,0 +1,38 @@
+#include "server/worker/scratch.h"
+
+#include <fmt/format.h>
+
+namespace sheer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path attempt_path(const fs::path& folder, const std::string& id, int attempt) {
+    return folder / fmt::format("{}-{}", id, attempt);
+}
+
+}  // namespace
+
+ScratchFolder::ScratchFolder(const fs::path& folder, const std::string& id, int attempt)
+    : m_path(attempt_path(folder, id, attempt)) {
+    for (int earlier = 1; earlier <= attempt; ++earlier) fs::remove_all(attempt_path(folder, id, earlier));
+    fs::create_directories(m_path);
+}
+
+ScratchFolder::~ScratchFolder() {
+    std::error_code left_to_the_next_sweep;
+    fs::remove_all(m_path, left_to_the_next_sweep);
+}
+
+void sweep_scratch(const fs::path& folder, Store& store) {
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+        const std::string name = entry.path().filename().string();
+        const auto record = store.find(name.substr(0, name.rfind('-')));
+        std::error_code taken_by_another_sweep;
+        if (!record || record->status != Status::running) fs::remove_all(entry.path(), taken_by_another_sweep);
+    }
+}
+
+}  // namespace sheer

@@ -1,0 +1,67 @@
+#include "server/worker/worker.h"
+
+#include <spdlog/spdlog.h>
+
+#include "server/worker/attempt.h"
+#include "server/worker/run_child.h"
+#include "server/worker/scratch.h"
+
+namespace sheer {
+
+namespace {
+
+constexpr std::chrono::seconds probe_time_limit{30};
+
+}  // namespace
+
+Worker::Worker(Store& store, WorkerOptions options, ClockMs clock)
+    : m_store(store), m_options(std::move(options)), m_clock(std::move(clock)) {}
+
+void Worker::run(StopSignal& stop) {
+    sweep_scratch(m_options.data / "scratch", m_store);
+    while (!stop.requested()) {
+        if (run_next(stop)) {
+            m_next_probe = std::chrono::steady_clock::now() + m_options.probe_interval;
+        } else if (std::chrono::steady_clock::now() >= m_next_probe) {
+            probe(stop);
+            m_next_probe = std::chrono::steady_clock::now() + m_options.probe_interval;
+        } else {
+            wait_readable({stop.descriptor()}, static_cast<int>(m_options.poll_interval.count()));
+        }
+    }
+}
+
+bool Worker::run_next(StopSignal& stop) {
+    const std::optional<Lease> lease = m_store.lease(m_options.name);
+    if (!lease) return false;
+    attempt(*lease, stop);
+    return true;
+}
+
+void Worker::attempt(const Lease& lease, StopSignal& stop) {
+    try {
+        Attempt(m_store, m_options, m_clock, lease, stop).run();
+    } catch (const std::exception& error) {
+        spdlog::error("job {}: {}", lease.id, error.what());
+        m_store.fail(lease, {"The report could not be kept", "The service's log says why."}, true);
+    }
+}
+
+void Worker::probe(StopSignal& stop) {
+    ChildRun run;
+    run.options.program = m_options.program;
+    run.options.arguments = {"render", "--probe"};
+    run.options.memory_limit_bytes = m_options.memory_limit_bytes;
+    run.time_limit = probe_time_limit;
+    run.wake_descriptor = stop.descriptor();
+    run.keep_going = [&stop] { return !stop.requested(); };
+    const ChildResult result = run_child(run);
+    if (result.status.code == 0) {
+        m_store.note_rendered();
+    } else if (!result.stopped) {
+        spdlog::warn("this worker cannot render: exit code {}, signal {}{}", result.status.code, result.status.signal,
+                     result.timed_out ? ", too slow" : "");
+    }
+}
+
+}  // namespace sheer

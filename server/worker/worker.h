@@ -1,0 +1,46 @@
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "server/jobs/clock.h"
+#include "server/jobs/lease_rules.h"
+#include "server/jobs/store.h"
+#include "server/worker/child_process.h"
+#include "server/worker/stop_signal.h"
+
+namespace sheer {
+
+struct WorkerOptions {
+    std::filesystem::path data;  ///< the service's folder
+    std::string name;            ///< unique among all workers that ever lived
+    std::string program = own_program;
+    std::uint64_t memory_limit_bytes = 0;  ///< of the rendering child; 0: none
+    std::chrono::milliseconds time_limit{1'800'000};
+    std::chrono::milliseconds poll_interval{150};
+    std::chrono::milliseconds probe_interval{30'000};
+    LeaseRules rules;
+};
+
+/// Leases jobs, renders each in a child process that may die, and commits the reports.
+class Worker {
+  public:
+    Worker(Store& store, WorkerOptions options, ClockMs clock);
+
+    /// Works until a stop is asked for; a job that runs then goes back to the queue.
+    void run(StopSignal& stop);
+    /// Runs one job if there is one.
+    bool run_next(StopSignal& stop);
+    /// Renders one pixel and notes the time if that works.
+    void probe(StopSignal& stop);
+
+  private:
+    void attempt(const Lease& lease, StopSignal& stop);
+
+    Store& m_store;
+    WorkerOptions m_options;
+    ClockMs m_clock;
+    std::chrono::steady_clock::time_point m_next_probe{};
+};
+
+}  // namespace sheer
