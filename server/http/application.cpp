@@ -1,0 +1,112 @@
+#include "server/http/application.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include "server/http/problem.h"
+#include "server/http/text.h"
+
+namespace sheer::http {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int max_json_depth = 64;
+
+void add_default(Headers& headers, const char* name, const char* value) {
+    if (!headers.contains(name)) headers.add(name, value);
+}
+
+/// What `work` gives, or the problem that it ends with.
+template <typename Result, typename Work>
+Result caught(const Request& request, const Work& work) {
+    try {
+        return work();
+    } catch (const Problem& wrong) {
+        return wrong.response();
+    } catch (const SpecError& wrong) {
+        return problem(422, "The spec is wrong.", wrong.errors());
+    } catch (const std::exception& error) {
+        spdlog::error("{} {}: {}", request.method, request.target, error.what());
+        return problem(500, "The service failed to answer; its log says why.");
+    }
+}
+
+}  // namespace
+
+Answer Application::answer(Request request) const {
+    Answer answer = caught<Answer>(request, [&] { return handle(request); });
+    if (auto* response = std::get_if<Response>(&answer)) return finished(std::move(*response), request);
+    if (auto* stream = std::get_if<EventStream>(&answer)) stream->head = finished(std::move(stream->head), request);
+    if (auto* waiting = std::get_if<Waiting>(&answer)) {
+        waiting->ready = [ready = std::move(waiting->ready), request]() -> std::optional<Response> {
+            auto response = caught<std::optional<Response>>(request, ready);
+            if (response) response = finished(std::move(*response), request);
+            return response;
+        };
+        waiting->otherwise = [otherwise = std::move(waiting->otherwise), request] {
+            return finished(caught<Response>(request, otherwise), request);
+        };
+    }
+    return answer;
+}
+
+Answer Application::handle(Request& request) const {
+    if (auto refusal = m_guard.refusal(request)) return *refusal;
+    const std::string_view target = request.target;
+    const std::size_t question = target.find('?');
+    Match match = m_router.match(request.method, target.substr(0, question));
+    if (match.allowed.empty()) throw Problem(404, "There is nothing at this address.");
+    const std::string allow = fmt::format("{}", fmt::join(match.allowed, ", "));
+    if (request.method == "OPTIONS") {
+        Response response{.status = 204, .headers = {}, .body = {}};
+        response.headers.add("Allow", allow);
+        return response;
+    }
+    if (!match.route)
+        throw Problem(405, fmt::format("{} is not allowed here; allowed are {}.", request.method, allow))
+            .with("Allow", allow);
+    request.path_values = std::move(match.path_values);
+    request.query =
+        read_query(question == std::string_view::npos ? "" : target.substr(question + 1), match.route->query);
+    const auto content_type = request.headers.find("Content-Type");
+    if (!match.route->body_schema.empty() && content_type && !is_json_type(*content_type))
+        throw Problem(415, "The body must be application/json, not " + *content_type + ".")
+            .with("Accept", "application/json");
+    return match.route->handle(request);
+}
+
+Response finished(Response response, const Request& request) {
+    const auto etag = response.headers.find("ETag");
+    const auto known = request.headers.find("If-None-Match");
+    if (response.status == 200 && etag && known && names_etag(*known, *etag)) {
+        response.status = 304;
+        response.body = std::string();
+    }
+    add_default(response.headers, "Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'; sandbox");
+    add_default(response.headers, "X-Content-Type-Options", "nosniff");
+    add_default(response.headers, "Referrer-Policy", "no-referrer");
+    // Else any page could show the pictures of a service on loopback.
+    add_default(response.headers, "Cross-Origin-Resource-Policy", "same-origin");
+    add_default(response.headers, "Cache-Control", "no-store");
+    return response;
+}
+
+json json_body(const Request& request) {
+    const auto shallow = [](int depth, json::parse_event_t, json&) {
+        if (depth > max_json_depth)
+            throw Problem(400, fmt::format("The body is nested deeper than {} levels.", max_json_depth));
+        return true;
+    };
+    try {
+        return json::parse(request.body, shallow);
+    } catch (const json::parse_error& error) {
+        throw Problem(400, fmt::format("The body is not JSON; it breaks at byte {}.", error.byte));
+    } catch (const json::exception&) {
+        throw Problem(400, "The body is not JSON that can be read: a number is out of range.");
+    }
+}
+
+}  // namespace sheer::http

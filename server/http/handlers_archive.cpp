@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include "server/archive/blob_store.h"
+#include "server/http/problem.h"
+#include "server/http/report_view.h"
+#include "server/http/service.h"
+#include "server/http/text.h"
+
+namespace sheer::http {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t max_text_bytes = 200;
+
+ListFilter filter_of(const json& query) {
+    ListFilter filter{.q = query["q"], .tag = query["tag"], .method = query["method"], .scene = query["scene"]};
+    filter.limit = query["limit"];
+    filter.status = status_from(query["status"].get<std::string>());
+    const std::string cursor = query["cursor"];
+    if (cursor.empty()) return filter;
+    const auto id = id_of_cursor(cursor);
+    if (!id) throw Problem(400, "The query is wrong.", {{"/cursor", "is not a next_cursor that this service gave"}});
+    filter.before_id = *id;
+    return filter;
+}
+
+Answer list_reports(Service& service, const Request& request) {
+    const ReportPage page = service.store.list(filter_of(request.query));
+    json body = {{"reports", json::array()}, {"next_cursor", nullptr}};
+    for (const ReportSummary& summary : page.reports) body["reports"].push_back(summary_json(summary));
+    if (page.more) body["next_cursor"] = cursor_after(page.reports.back().id);
+    return json_response(200, body);
+}
+
+Answer get_blob(Service& service, const Request& request) {
+    const std::string sha256 = request.path_values.at("sha256");
+    const auto blob = is_sha256(sha256) ? service.store.find_blob(sha256) : std::nullopt;
+    if (!blob) throw Problem(404, "There is no such blob.");
+    Response response{.status = 200, .headers = {}, .body = blob->path};
+    response.headers.add("Content-Type", blob->media_type);
+    response.headers.add("ETag", fmt::format("\"{}\"", sha256));
+    response.headers.add("Cache-Control", "public, max-age=31536000, immutable");
+    return response;
+}
+
+std::vector<Param> list_query() {
+    std::vector<std::string> statuses{""};
+    for (const Status status : {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled})
+        statuses.emplace_back(status_text(status));
+    return {Param::integer("limit", "how many reports at most", "", 20, 1, 100),
+            Param::text("cursor", "next_cursor of the page before", "", max_text_bytes),
+            Param::text("q", "part of the title or of a tag's value, without regard to case", "", max_text_bytes),
+            Param::text("tag", "name of a tag, or name:value", "", max_text_bytes),
+            Param::text("method", "id of a method that is compared", "", max_text_bytes),
+            Param::text("scene", "type of the scene", "", max_text_bytes),
+            Param::choice("status", "how far the reports are", "", statuses)};
+}
+
+}  // namespace
+
+std::vector<Route> archive_routes(Service& service) {
+    return {{.method = "GET",
+             .pattern = reports_path,
+             .id = "listReports",
+             .summary = "The archive, newest first",
+             .query = list_query(),
+             .headers = {},
+             .body_schema = "",
+             .replies = {{200, "A page of the list", "application/json", "ReportList"}},
+             .handle = [&service](const Request& request) { return list_reports(service, request); }},
+            {.method = "GET",
+             .pattern = "/api/v1/blobs/{sha256}",
+             .id = "getBlob",
+             .summary = "A picture",
+             .query = {},
+             .headers = {{"If-None-Match", "the ETag of what is there already"}},
+             .body_schema = "",
+             .replies = {{200, "The picture; it never changes", "image/*", ""},
+                         {304, "It is the one that is there already", "", ""},
+                         {404, "There is no such blob", "application/problem+json", "Problem"}},
+             .handle = [&service](const Request& request) { return get_blob(service, request); }}};
+}
+
+}  // namespace sheer::http

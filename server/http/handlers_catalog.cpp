@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "renderer/report/report.h"
+#include "renderer/spec/spec.h"
+#include "server/http/problem.h"
+#include "server/http/service.h"
+
+namespace sheer::http {
+
+using nlohmann::json;
+
+namespace {
+
+Route catalog_route(std::string path, std::string id, std::string summary, Handler handle) {
+    return {.method = "GET",
+            .pattern = std::move(path),
+            .id = std::move(id),
+            .summary = std::move(summary),
+            .query = {},
+            .headers = {},
+            .body_schema = "",
+            .replies = {{200, "The list", "application/json", "Catalog"}},
+            .handle = std::move(handle)};
+}
+
+/// Answers with a text that stays the same as long as the program runs.
+Handler fixed_json(const json& body) {
+    Response response = json_response(200, body);
+    response.headers.add("ETag", fmt::format("\"{}\"", sha256_hex(std::get<std::string>(response.body)).substr(0, 32)));
+    response.headers.add("Cache-Control", "no-cache");
+    return [response](const Request&) { return response; };
+}
+
+Answer get_devices(Service& service) {
+    try {
+        return json_response(200, service.list_devices());
+    } catch (const std::exception& error) {
+        spdlog::error("the devices cannot be listed: {}", error.what());
+        throw Problem(503, "The devices cannot be listed now; the service's log says why.").with("Retry-After", "10");
+    }
+}
+
+}  // namespace
+
+std::vector<Route> catalog_routes(Service& service) {
+    return {catalog_route("/api/v1/methods", "listMethods", "The methods with their parameters",
+                          fixed_json(describe_methods())),
+            catalog_route("/api/v1/scenes", "listScenes", "The scene types with their parameters",
+                          fixed_json(describe_scenes())),
+            catalog_route("/api/v1/devices", "listDevices", "The devices that can render",
+                          [&service](const Request&) { return get_devices(service); })};
+}
+
+}  // namespace sheer::http

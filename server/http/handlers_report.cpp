@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "renderer/report/report.h"
+#include "server/archive/blob_store.h"
+#include "server/http/problem.h"
+#include "server/http/report_view.h"
+#include "server/http/service.h"
+#include "server/http/text.h"
+
+namespace sheer::http {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::uintmax_t max_picture_bytes = std::uintmax_t{512} << 20;
+
+// The page carries its own style, script and pictures; the sandbox keeps it from acting under the service's origin.
+constexpr const char* page_policy =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; frame-ancestors 'self'; "
+    "sandbox allow-scripts";
+
+ReportRecord found(Service& service, const Request& request) {
+    const auto record = service.store.find(request.path_values.at("id"));
+    if (!record) throw Problem(404, "There is no such report.");
+    return *record;
+}
+
+json finished_report(Service& service, const Request& request) {
+    const ReportRecord record = found(service, request);
+    if (record.status != Status::done)
+        throw Problem(409, fmt::format("The report is not done: it is {}.", status_text(record.status)));
+    return json::parse(record.report);
+}
+
+Answer get_html(Service& service, const Request& request) {
+    const auto read_picture = [&service](const json& image) {
+        const auto blob = service.store.find_blob(image.at("sha256").get<std::string>());
+        if (!blob) throw StoreError("a picture of the report is missing");
+        return read_file(blob->path, max_picture_bytes);
+    };
+    Response response =
+        text_response(200, report_html(finished_report(service, request), read_picture), "text/html; charset=utf-8");
+    response.headers.add("Content-Security-Policy", page_policy);
+    return response;
+}
+
+Answer get_junit(Service& service, const Request& request) {
+    return text_response(200, report_junit(finished_report(service, request)), "application/xml");
+}
+
+Answer delete_report(Service& service, const Request& request) {
+    const std::string id = request.path_values.at("id");
+    switch (service.store.remove(id)) {
+        case RemoveResult::not_found:
+            break;
+        case RemoveResult::deleted:
+            return Response{.status = 204, .headers = {}, .body = {}};
+        case RemoveResult::cancelled:
+            return report_response(200, found(service, request));
+        case RemoveResult::cancelling:
+            return report_response(202, found(service, request));
+    }
+    throw Problem(404, "There is no such report.");
+}
+
+std::int64_t last_event_id(const Request& request) {
+    const std::string text = request.headers.find("Last-Event-ID").value_or("");
+    std::int64_t id = 0;
+    std::from_chars(text.data(), text.data() + text.size(), id);
+    return id;
+}
+
+/// The events say how things are, not how they came to be: their ids are revisions, and a reader that was away gets one
+/// event for all it missed.
+Answer get_events(Service& service, const Request& request) {
+    const ReportRecord record = found(service, request);
+    const std::int64_t last_id = last_event_id(request);
+    // This tells an EventSource not to come again.
+    if (is_final(record.status) && record.revision <= last_id)
+        return Response{.status = 204, .headers = {}, .body = {}};
+    EventStream stream{.head = text_response(200, "", "text/event-stream")};
+    stream.next = [&service, id = record.id, sent = last_id]() mutable -> EventChunk {
+        const auto now = service.store.find(id);
+        if (!now) return {.text = "", .last = true};
+        if (now->revision == sent) return {};
+        sent = now->revision;
+        return {event_text(sent, event_name(now->status), event_json(*now).dump()), is_final(now->status)};
+    };
+    return stream;
+}
+
+Route route(std::string method, std::string suffix, std::string id, std::string summary, std::vector<Reply> replies,
+            Handler handle) {
+    replies.push_back({404, "There is no such report", "application/problem+json", "Problem"});
+    return {.method = std::move(method),
+            .pattern = std::string(reports_path) + "/{id}" + suffix,
+            .id = std::move(id),
+            .summary = std::move(summary),
+            .query = {},
+            .headers = {},
+            .body_schema = "",
+            .replies = std::move(replies),
+            .handle = std::move(handle)};
+}
+
+}  // namespace
+
+std::vector<Route> report_routes(Service& service) {
+    const Reply not_done{409, "The report is not done", "application/problem+json", "Problem"};
+    Route events =
+        route("GET", "/events", "getReportEvents", "Progress as server-sent events, then done, failed or cancelled",
+              {{200, "The events; their ids are revisions of the report", "text/event-stream", ""},
+               {204, "There is nothing after Last-Event-ID, and nothing will come", "", ""}},
+              [&service](const Request& request) { return get_events(service, request); });
+    events.headers = {{"Last-Event-ID", "the last event that was seen"}};
+    return {
+        route("GET", "", "getReport", "A report, also while it is queued or running",
+              {{200, "The report", "application/json", "Report"}},
+              [&service](const Request& request) { return report_response(200, found(service, request)); }),
+        std::move(events),
+        route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
+              {{200, "The page", "text/html", ""}, not_done},
+              [&service](const Request& request) { return get_html(service, request); }),
+        route("GET", "/junit.xml", "getReportJunit", "The checks of a done report as JUnit XML",
+              {{200, "The checks", "application/xml", ""}, not_done},
+              [&service](const Request& request) { return get_junit(service, request); }),
+        route("DELETE", "", "deleteReport", "Cancel a queued or running report, delete one that is over",
+              {{200, "It was queued and is cancelled", "application/json", "Report"},
+               {202, "It is running and will be cancelled", "application/json", "Report"},
+               {204, "It was over and is deleted", "", ""}},
+              [&service](const Request& request) { return delete_report(service, request); }),
+    };
+}
+
+}  // namespace sheer::http

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/report/report.h"
+#include "renderer/spec/spec.h"
+#include "server/http/application.h"
+#include "server/http/problem.h"
+#include "server/http/report_view.h"
+#include "server/http/service.h"
+#include "server/http/text.h"
+
+namespace sheer::http {
+
+namespace {
+
+constexpr std::size_t max_key_bytes = 255;
+// How long a caller should leave a full queue alone, and one that renders.
+constexpr const char* retry_full_queue_s = "10";
+constexpr const char* retry_report_s = "1";
+
+std::optional<IdempotencyKey> idempotency_key(const Request& request, const nlohmann::json& document) {
+    const auto key = request.headers.find("Idempotency-Key");
+    if (!key) return std::nullopt;
+    if (key->empty() || key->size() > max_key_bytes)
+        throw Problem(400, fmt::format("Idempotency-Key must have 1 to {} bytes.", max_key_bytes));
+    return IdempotencyKey{*key, sha256_hex(document.dump())};
+}
+
+ReportRecord submit(Service& service, const Request& request) {
+    const nlohmann::json document = json_body(request);
+    const Spec spec = parse_spec(document);
+    NewReport report{.id = service.ids.next(), .spec = spec.canonical_text()};
+    report.spec_sha256 = sha256_hex(report.spec);
+    report.idempotency = idempotency_key(request, document);
+    const SubmitResult result = service.store.submit(report, service.max_queued);
+    if (result.outcome == SubmitResult::Outcome::queue_full)
+        throw Problem(429, fmt::format("{} comparisons wait already.", service.max_queued))
+            .with("Retry-After", retry_full_queue_s);
+    if (result.outcome == SubmitResult::Outcome::key_reused)
+        throw Problem(422, "This Idempotency-Key was used for another spec.");
+    const auto record = service.store.find(result.id);
+    if (!record) throw Problem(409, "The report was deleted in the meantime.");
+    return *record;
+}
+
+Response accepted(const ReportRecord& record) {
+    Response response = report_response(202, record);
+    response.headers.add("Location", fmt::format("{}/{}", reports_path, record.id));
+    response.headers.add("Retry-After", retry_report_s);
+    return response;
+}
+
+std::optional<Response> if_final(Service& service, const std::string& id) {
+    const auto record = service.store.find(id);
+    if (!record) throw Problem(404, "The report was deleted in the meantime.");
+    if (!is_final(record->status)) return std::nullopt;
+    Response response = report_response(200, *record);
+    response.headers.add("Location", fmt::format("{}/{}", reports_path, id));
+    return response;
+}
+
+Answer post_report(Service& service, const Request& request) {
+    const ReportRecord record = submit(service, request);
+    const auto wait_s = preferred_wait_s(request.headers.find("Prefer").value_or(""));
+    if (!wait_s) return accepted(record);
+    const auto limit = std::min(std::chrono::seconds(*wait_s), service.max_wait);
+    const auto applied = [limit](Response response) {
+        response.headers.add("Preference-Applied", fmt::format("wait={}", limit.count()));
+        return response;
+    };
+    Waiting waiting{.limit = limit};
+    waiting.ready = [&service, id = record.id, applied]() -> std::optional<Response> {
+        auto response = if_final(service, id);
+        if (response) response = applied(std::move(*response));
+        return response;
+    };
+    waiting.otherwise = [&service, record, applied] {
+        return applied(accepted(service.store.find(record.id).value_or(record)));
+    };
+    return waiting;
+}
+
+Answer validate_spec(const Request& request) {
+    return text_response(200, parse_spec(json_body(request)).canonical_text(), "application/json");
+}
+
+}  // namespace
+
+std::vector<Route> submit_routes(Service& service) {
+    const Reply bad_spec{422, "The spec is wrong; `errors` names every wrong field", "application/problem+json",
+                         "Problem"};
+    return {
+        {.method = "POST",
+         .pattern = reports_path,
+         .id = "createReport",
+         .summary = "Queue a comparison",
+         .query = {},
+         .headers = {{"Prefer", "wait=N: answer with the finished report if it is ready within N seconds"},
+                     {"Idempotency-Key", "the same key with the same spec gives the same report again"}},
+         .body_schema = "Spec",
+         .replies = {{202, "Queued; Location says where the report will be", "application/json", "Report"},
+                     {200, "Finished within the time that Prefer gave", "application/json", "Report"},
+                     bad_spec,
+                     {429, "The queue is full; Retry-After says when to come again", "application/problem+json",
+                      "Problem"}},
+         .handle = [&service](const Request& request) { return post_report(service, request); }},
+        {.method = "POST",
+         .pattern = "/api/v1/specs/validate",
+         .id = "validateSpec",
+         .summary = "Check a spec and fill in its defaults",
+         .query = {},
+         .headers = {},
+         .body_schema = "Spec",
+         .replies = {{200, "The normalised spec", "application/json", "Spec"}, bad_spec},
+         .handle = validate_spec},
+    };
+}
+
+}  // namespace sheer::http

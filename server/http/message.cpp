@@ -1,0 +1,24 @@
+#include "server/http/message.h"
+
+#include "server/http/text.h"
+
+namespace sheer::http {
+
+std::optional<std::string> Headers::find(std::string_view name) const {
+    for (const auto& [field, value] : m_fields)
+        if (equal_ignoring_case(field, name)) return value;
+    return std::nullopt;
+}
+
+Response text_response(int status, std::string body, std::string media_type) {
+    Response response{.status = status, .headers = {}, .body = std::move(body)};
+    response.headers.add("Content-Type", std::move(media_type));
+    return response;
+}
+
+Response json_response(int status, const nlohmann::json& body) {
+    return text_response(status, body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+                         "application/json");
+}
+
+}  // namespace sheer::http

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/spec/spec.h"
+#include "server/http/problem.h"
+#include "server/http/service.h"
+#include "server/http/text.h"
+#include "server/jobs/status.h"
+#include "version.h"
+
+namespace sheer::http {
+
+using nlohmann::json;
+
+namespace {
+
+json reference(const std::string& schema) {
+    return {{"$ref", "#/components/schemas/" + schema}};
+}
+
+json content(const std::string& media_type, const std::string& schema) {
+    return {{media_type, {{"schema", schema.empty() ? json::object() : reference(schema)}}}};
+}
+
+json error_reply(const char* description) {
+    return {{"description", description}, {"content", content("application/problem+json", "Problem")}};
+}
+
+/// The names between braces.
+std::vector<std::string> path_names(const std::string& pattern) {
+    std::vector<std::string> names;
+    for (const std::string_view part : split(pattern, '/'))
+        if (part.starts_with('{')) names.emplace_back(part.substr(1, part.size() - 2));
+    return names;
+}
+
+json parameters_of(const Route& route) {
+    json parameters = json::array();
+    for (const std::string& name : path_names(route.pattern))
+        parameters.push_back({{"name", name}, {"in", "path"}, {"required", true}, {"schema", {{"type", "string"}}}});
+    const json fields = schema_of(route.query);
+    for (const Param& param : route.query)
+        parameters.push_back({{"name", param.name},
+                              {"in", "query"},
+                              {"description", param.summary},
+                              {"schema", fields["properties"][param.name]}});
+    for (const HeaderField& header : route.headers)
+        parameters.push_back({{"name", header.name},
+                              {"in", "header"},
+                              {"description", header.summary},
+                              {"schema", {{"type", "string"}}}});
+    return parameters;
+}
+
+json operation_of(const Route& route) {
+    json operation = {{"operationId", route.id}, {"summary", route.summary}, {"responses", json::object()}};
+    if (json parameters = parameters_of(route); !parameters.empty()) operation["parameters"] = parameters;
+    json& responses = operation["responses"];
+    for (const Reply& reply : route.replies) {
+        json& response = responses[std::to_string(reply.status)];
+        response["description"] = reply.description;
+        if (!reply.media_type.empty()) response["content"] = content(reply.media_type, reply.schema);
+    }
+    if (!route.query.empty()) responses["400"] = error_reply("The query is wrong");
+    if (!route.body_schema.empty()) {
+        operation["requestBody"] = {{"required", true}, {"content", content("application/json", route.body_schema)}};
+        responses["400"] = error_reply("The body is not JSON");
+        responses["413"] = error_reply("The body is too long");
+        responses["415"] = error_reply("The body has another type");
+    }
+    responses["default"] = error_reply("What is wrong");
+    return operation;
+}
+
+json object_schema(json properties, json required) {
+    return {{"type", "object"}, {"properties", std::move(properties)}, {"required", std::move(required)}};
+}
+
+json text_schema() {
+    return {{"type", "string"}};
+}
+json nullable(const char* type) {
+    return {{"type", {type, "null"}}};
+}
+
+json status_schema() {
+    json names = json::array();
+    for (const Status status : {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled})
+        names.push_back(status_text(status));
+    return {{"type", "string"}, {"enum", names}};
+}
+
+/// What a report and its line in the list have in common.
+json common_properties() {
+    json error = object_schema({{"title", text_schema()}, {"detail", text_schema()}}, {"title", "detail"});
+    error["type"] = {"object", "null"};
+    return {{"id", text_schema()},
+            {"status", status_schema()},
+            {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
+            {"error", error},
+            {"created_at", {{"type", "string"}, {"format", "date-time"}}},
+            {"finished_at", {{"type", {"string", "null"}}, {"format", "date-time"}}},
+            {"spec_sha256", text_schema()}};
+}
+
+json report_schema() {
+    json properties = common_properties();
+    properties["stage"] = {{"type", "string"},
+                           {"description", "what the renderer is at; only until the report is done"}};
+    properties["spec"] = reference("Spec");
+    for (const char* name : {"device", "provenance"}) properties[name] = {{"type", "object"}};
+    for (const char* name : {"runs", "checks"}) properties[name] = {{"type", "array"}, {"items", {{"type", "object"}}}};
+    properties["verdict"] = {{"enum", {"passed", "failed", "none"}}};
+    return object_schema(properties, {"id", "status", "progress", "error", "created_at", "spec", "spec_sha256"});
+}
+
+json list_schema() {
+    json properties = common_properties();
+    for (const char* name : {"url", "title", "scene"}) properties[name] = text_schema();
+    properties["tags"] = {{"type", "object"}, {"additionalProperties", text_schema()}};
+    properties["methods"] = {{"type", "array"}, {"items", text_schema()}};
+    properties["verdict"] = nullable("string");
+    properties["preview"] = nullable("object");
+    const json line = object_schema(properties, {"id", "url", "status", "progress", "created_at", "title"});
+    return object_schema({{"reports", {{"type", "array"}, {"items", line}}}, {"next_cursor", nullable("string")}},
+                         {"reports", "next_cursor"});
+}
+
+json problem_schema() {
+    const json error = object_schema({{"pointer", text_schema()}, {"detail", text_schema()}}, {"pointer", "detail"});
+    return object_schema({{"type", text_schema()},
+                          {"title", text_schema()},
+                          {"status", {{"type", "integer"}}},
+                          {"detail", text_schema()},
+                          {"errors", {{"type", "array"}, {"items", error}}}},
+                         {"type", "title", "status", "detail"});
+}
+
+json schemas() {
+    json spec = spec_schema();
+    spec.erase("$schema");
+    return {{"Spec", spec},
+            {"Report", report_schema()},
+            {"ReportList", list_schema()},
+            {"Problem", problem_schema()},
+            {"Catalog", {{"type", "array"}, {"items", {{"type", "object"}}}}},
+            {"Health", object_schema({{"status", text_schema()}}, {"status"})}};
+}
+
+}  // namespace
+
+json openapi_document(const std::vector<Route>& routes) {
+    json paths = json::object();
+    for (const Route& route : routes) {
+        if (route.id.empty()) continue;
+        std::string method = route.method;
+        std::ranges::transform(method, method.begin(), [](unsigned char c) { return std::tolower(c); });
+        paths[route.pattern][method] = operation_of(route);
+    }
+    return {{"openapi", "3.1.0"},
+            {"info", {{"title", "Sheer"}, {"version", version}, {"summary", "Compares transparency methods"}}},
+            {"paths", paths},
+            {"components", {{"schemas", schemas()}}}};
+}
+
+Router make_router(Service& service) {
+    Router router;
+    for (auto* routes : {submit_routes, report_routes, archive_routes, catalog_routes, health_routes})
+        router.add(routes(service));
+    Route openapi{.method = "GET",
+                  .pattern = "/api/v1/openapi.json",
+                  .id = "getOpenapi",
+                  .summary = "This document",
+                  .query = {},
+                  .headers = {},
+                  .body_schema = "",
+                  .replies = {{200, "The document", "application/json", ""}},
+                  .handle = {}};
+    std::vector<Route> documented = router.routes();
+    documented.push_back(openapi);
+    openapi.handle = [response = json_response(200, openapi_document(documented))](const Request&) { return response; };
+    router.add({std::move(openapi)});
+    router.add(page_routes());
+    return router;
+}
+
+}  // namespace sheer::http

@@ -1,0 +1,46 @@
+#include "server/http/problem.h"
+
+#include <map>
+
+namespace sheer::http {
+
+using nlohmann::json;
+
+const char* status_phrase(int status) {
+    static const std::map<int, const char*> phrases{{100, "Continue"},
+                                                    {200, "OK"},
+                                                    {202, "Accepted"},
+                                                    {204, "No Content"},
+                                                    {304, "Not Modified"},
+                                                    {400, "Bad Request"},
+                                                    {403, "Forbidden"},
+                                                    {404, "Not Found"},
+                                                    {405, "Method Not Allowed"},
+                                                    {408, "Request Timeout"},
+                                                    {409, "Conflict"},
+                                                    {413, "Content Too Large"},
+                                                    {415, "Unsupported Media Type"},
+                                                    {421, "Misdirected Request"},
+                                                    {422, "Unprocessable Content"},
+                                                    {429, "Too Many Requests"},
+                                                    {431, "Request Header Fields Too Large"},
+                                                    {500, "Internal Server Error"},
+                                                    {503, "Service Unavailable"}};
+    const auto found = phrases.find(status);
+    return found == phrases.end() ? "Unknown" : found->second;
+}
+
+Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors) {
+    json body = {{"type", "about:blank"}, {"title", status_phrase(status)}, {"status", status}, {"detail", detail}};
+    for (const FieldError& error : errors)
+        body["errors"].push_back({{"pointer", error.pointer}, {"detail", error.detail}});
+    return text_response(status, body.dump(-1, ' ', false, json::error_handler_t::replace), "application/problem+json");
+}
+
+Response Problem::response() const {
+    Response response = problem(m_status, what(), m_errors);
+    for (const auto& [name, value] : m_headers) response.headers.add(name, value);
+    return response;
+}
+
+}  // namespace sheer::http

@@ -1,0 +1,35 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "renderer/errors.h"
+#include "server/http/message.h"
+
+namespace sheer::http {
+
+/// An answer that says what is wrong, as RFC 9457 problem+json. `errors` names wrong fields of the body by JSON
+/// pointer.
+Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors = {});
+
+/// Ends a handler with a problem.
+class Problem : public std::runtime_error {
+  public:
+    Problem(int status, const std::string& detail, std::vector<FieldError> errors = {})
+        : std::runtime_error(detail), m_status(status), m_errors(std::move(errors)) {}
+    Problem with(std::string header, std::string value) && {
+        m_headers.emplace_back(std::move(header), std::move(value));
+        return std::move(*this);
+    }
+    Response response() const;
+
+  private:
+    int m_status;
+    std::vector<FieldError> m_errors;
+    std::vector<std::pair<std::string, std::string>> m_headers;
+};
+
+/// "Not Found" and the like.
+const char* status_phrase(int status);
+
+}  // namespace sheer::http

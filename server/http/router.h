@@ -1,0 +1,59 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/spec/param.h"
+#include "server/http/message.h"
+
+namespace sheer::http {
+
+using Handler = std::function<Answer(const Request&)>;
+
+/// One possible answer, for the OpenAPI document.
+struct Reply {
+    int status = 200;
+    std::string description;
+    std::string media_type = "application/json";  ///< "" for none
+    std::string schema;                           ///< name of a component, "" for any
+};
+
+struct HeaderField {
+    std::string name;
+    std::string summary;
+};
+
+/// A call of the service. The OpenAPI document and the checks of the query are made from this description.
+struct Route {
+    std::string method;   ///< GET also answers HEAD
+    std::string pattern;  ///< "/api/v1/reports/{id}"; a {name} stands for one segment
+    std::string id;       ///< operationId; "" keeps it out of the OpenAPI document
+    std::string summary;
+    std::vector<Param> query;
+    std::vector<HeaderField> headers;
+    std::string body_schema;  ///< component that the JSON body must fit; "" for no body
+    std::vector<Reply> replies;
+    Handler handle;
+};
+
+struct Match {
+    const Route* route = nullptr;                    ///< null if none answers
+    std::map<std::string, std::string> path_values;  ///< decoded
+    std::vector<std::string> allowed;                ///< methods that the path knows; empty if there is no such path
+};
+
+class Router {
+  public:
+    void add(std::vector<Route> routes);
+    Match match(std::string_view method, std::string_view path) const;
+    const std::vector<Route>& routes() const { return m_routes; }
+
+  private:
+    std::vector<Route> m_routes;
+};
+
+/// Reads `query` as `fields` describe it; numbers are given as text. Throws Problem (400) that names every wrong field.
+nlohmann::json read_query(std::string_view query, const std::vector<Param>& fields);
+
+}  // namespace sheer::http

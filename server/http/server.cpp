@@ -1,0 +1,172 @@
+#include "server/http/server.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <charconv>
+#include <csignal>
+
+#include "server/http/session.h"
+
+namespace sheer::http {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr auto token = asio::as_tuple(asio::use_awaitable);
+
+tcp::endpoint tcp_endpoint(const Endpoint& endpoint) {
+    return {asio::ip::make_address(endpoint.address), endpoint.port};
+}
+
+asio::awaitable<void> serve(std::shared_ptr<Session> session) {
+    co_await session->run();
+}
+asio::awaitable<void> turn_away(std::shared_ptr<Session> session) {
+    co_await session->refuse();
+}
+
+}  // namespace
+
+Endpoint parse_endpoint(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos) throw std::invalid_argument("'" + text + "' is not ADDRESS:PORT");
+    std::string address = text.substr(0, colon);
+    if (address.starts_with('[') && address.ends_with(']')) address = address.substr(1, address.size() - 2);
+    if (address == "localhost") address = "127.0.0.1";
+    boost::system::error_code bad_address;
+    asio::ip::make_address(address, bad_address);
+    if (bad_address) throw std::invalid_argument("'" + address + "' is not a numeric address");
+    Endpoint endpoint{.address = address};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + colon + 1, end, endpoint.port);
+    if (error != std::errc() || stop != end) throw std::invalid_argument("'" + text + "' has no port from 0 to 65535");
+    return endpoint;
+}
+
+bool is_loopback(const Endpoint& endpoint) {
+    return asio::ip::make_address(endpoint.address).is_loopback();
+}
+
+std::string url_of(const Endpoint& endpoint) {
+    const bool v6 = asio::ip::make_address(endpoint.address).is_v6();
+    return v6 ? fmt::format("http://[{}]:{}", endpoint.address, endpoint.port)
+              : fmt::format("http://{}:{}", endpoint.address, endpoint.port);
+}
+
+class Server::Impl {
+  public:
+    Impl(const Endpoint& endpoint, const Limits& limits, Answerer answer, std::function<std::int64_t()> change_counter)
+        : m_limits(limits),
+          m_changes(m_io, std::move(change_counter)),
+          m_context{.limits = m_limits,
+                    .answer = std::move(answer),
+                    .pool = m_pool,
+                    .changes = m_changes,
+                    .sessions = {},
+                    .stopping = false,
+                    .on_end = [this] { session_ended(); }},
+          m_io(1),
+          m_pool(static_cast<std::size_t>(limits.threads)),
+          m_acceptor(m_io, tcp_endpoint(endpoint)),
+          m_signals(m_io, SIGINT, SIGTERM),
+          m_stop_timer(m_io) {}
+
+    ~Impl() {
+        // Connections that were cut short end with m_io, after the timer and the signals.
+        m_context.on_end = [] {};
+    }
+
+    Endpoint endpoint() const {
+        const tcp::endpoint local = m_acceptor.local_endpoint();
+        return {local.address().to_string(), local.port()};
+    }
+
+    void run() {
+        asio::co_spawn(m_io, accept(), asio::detached);
+        m_signals.async_wait([this](boost::system::error_code error, int) {
+            if (!error) stop();
+        });
+        m_io.run();
+        m_pool.join();
+    }
+
+  private:
+    asio::awaitable<void> accept() {
+        while (!m_context.stopping) {
+            auto [error, socket] = co_await m_acceptor.async_accept(token);
+            if (error == asio::error::operation_aborted || m_context.stopping) co_return;
+            if (error) {
+                spdlog::warn("a connection cannot be accepted: {}", error.message());
+                // Out of descriptors, most likely: it needs time, not tries.
+                asio::steady_timer pause(m_io, 100ms);
+                co_await pause.async_wait(token);
+                continue;
+            }
+            const bool full = static_cast<int>(m_context.sessions.size()) >= m_limits.max_connections;
+            auto session = make_session(std::move(socket), m_context);
+            asio::co_spawn(m_io, full ? turn_away(session) : serve(session), asio::detached);
+        }
+    }
+
+    void stop() {
+        m_context.stopping = true;
+        m_acceptor.close();
+        m_changes.stop();
+        const std::set<Session*> sessions = m_context.sessions;
+        for (Session* session : sessions) session->stop();
+        m_stop_timer.expires_after(m_limits.stop_timeout);
+        m_stop_timer.async_wait([this](boost::system::error_code error) {
+            if (!error) m_io.stop();
+        });
+        m_signals.async_wait([this](boost::system::error_code error, int) {
+            if (!error) m_io.stop();
+        });
+        session_ended();
+    }
+
+    void session_ended() {
+        if (!m_context.stopping || !m_context.sessions.empty()) return;
+        m_stop_timer.cancel();
+        m_signals.cancel();
+    }
+
+    const Limits m_limits;
+    // Connections that were cut short end with m_io and still use these.
+    Changes m_changes;
+    SessionContext m_context;
+    asio::io_context m_io;
+    asio::thread_pool m_pool;
+    tcp::acceptor m_acceptor;
+    asio::signal_set m_signals;
+    asio::steady_timer m_stop_timer;
+};
+
+Server::Server(const Endpoint& endpoint, const Limits& limits, Answerer answer,
+               std::function<std::int64_t()> change_counter) try
+    : m_impl(std::make_unique<Impl>(endpoint, limits, std::move(answer), std::move(change_counter))) {
+} catch (const boost::system::system_error& error) {
+    throw std::runtime_error(
+        fmt::format("cannot listen on {}:{}: {}", endpoint.address, endpoint.port, error.code().message()));
+}
+
+Server::~Server() = default;
+Endpoint Server::endpoint() const {
+    return m_impl->endpoint();
+}
+void Server::run() {
+    m_impl->run();
+}
+
+}  // namespace sheer::http

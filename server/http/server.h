@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/http/limits.h"
+#include "server/http/message.h"
+
+namespace sheer::http {
+
+/// Where to listen: a numeric address and a port, 0 for any that is free.
+struct Endpoint {
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 8080;
+};
+
+/// Reads "ADDR:PORT", also "[::1]:PORT" and "localhost:PORT". Throws std::invalid_argument.
+Endpoint parse_endpoint(const std::string& text);
+bool is_loopback(const Endpoint& endpoint);
+/// "http://127.0.0.1:8080"
+std::string url_of(const Endpoint& endpoint);
+
+/// Speaks HTTP/1.1. Connections are served by the thread in `run`, answers are made by a pool.
+class Server {
+  public:
+    using Answerer = std::function<Answer(Request)>;
+
+    /// Listens at once; connections wait until `run`. `change_counter` is the store's. Throws std::runtime_error.
+    Server(const Endpoint& endpoint, const Limits& limits, Answerer answer,
+           std::function<std::int64_t()> change_counter);
+    ~Server();
+
+    /// Where it listens, with the port that was found.
+    Endpoint endpoint() const;
+    /// Serves until SIGINT or SIGTERM, then finishes the answers that are on their way; a second signal ends those too.
+    void run();
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace sheer::http

@@ -1,0 +1,39 @@
+#pragma once
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include "server/http/router.h"
+#include "server/jobs/clock.h"
+#include "server/jobs/report_id.h"
+#include "server/jobs/store.h"
+
+namespace sheer::http {
+
+/// What the handlers need.
+struct Service {
+    Store& store;
+    ReportIds& ids;
+    ClockMs clock;
+    /// `sheer devices --json`; throws std::exception if it fails.
+    std::function<nlohmann::json()> list_devices;
+    std::size_t max_queued = 100;
+    std::chrono::seconds max_wait{300};     ///< what `Prefer: wait` is cut to
+    std::chrono::seconds ready_within{90};  ///< how long after its last rendering the service still counts as ready
+};
+
+// The calls, by what they are about. `service` must outlive the routes.
+std::vector<Route> submit_routes(Service& service);   ///< POST /reports, /specs/validate
+std::vector<Route> report_routes(Service& service);   ///< one report
+std::vector<Route> archive_routes(Service& service);  ///< the list of reports, the pictures
+std::vector<Route> catalog_routes(Service& service);  ///< /methods, /scenes, /devices
+std::vector<Route> health_routes(Service& service);   ///< /healthz, /readyz
+std::vector<Route> page_routes();                     ///< the page at /
+
+/// All of them, and /openapi.json made from their table.
+Router make_router(Service& service);
+
+/// The OpenAPI 3.1 document of `routes`.
+nlohmann::json openapi_document(const std::vector<Route>& routes);
+
+}  // namespace sheer::http

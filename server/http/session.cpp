@@ -1,0 +1,328 @@
+#include "server/http/session.h"
+
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/experimental/awaitable_operators.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <charconv>
+#include <ctime>
+
+#include "server/http/problem.h"
+#include "server/http/text.h"
+
+namespace sheer::http {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace bhttp = boost::beast::http;
+using asio::ip::tcp;
+using asio::experimental::awaitable_operators::operator||;
+using Milliseconds = std::chrono::milliseconds;
+using SteadyClock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr auto token = asio::as_tuple(asio::use_awaitable);
+constexpr std::chrono::seconds linger_timeout{10};
+
+/// Runs `work` on the pool and comes back to the connection's thread with what it gave.
+template <typename Work>
+asio::awaitable<std::invoke_result_t<Work&>> on_pool(asio::thread_pool& pool, Work work) {
+    auto run = [](Work inner) -> asio::awaitable<std::invoke_result_t<Work&>> { co_return inner(); };
+    co_return co_await asio::co_spawn(pool, run(std::move(work)), asio::use_awaitable);
+}
+
+/// RFC 9110, 5.6.7.
+std::string http_date() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    std::array<char, 40> text;
+    return {text.data(), std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc)};
+}
+
+Request plain_request(bhttp::request<bhttp::string_body>&& message) {
+    Request request;
+    request.method = std::string(message.method_string());
+    request.target = std::string(message.target());
+    for (const auto& field : message) request.headers.add(std::string(field.name_string()), std::string(field.value()));
+    request.body = std::move(message.body());
+    return request;
+}
+
+/// The problem that a request which cannot be read deserves, or nothing where nobody is left to hear it.
+std::optional<Response> problem_of(beast::error_code error) {
+    if (error == bhttp::error::body_limit) return problem(413, "The body is too long.");
+    if (error == bhttp::error::header_limit || error == bhttp::error::buffer_overflow)
+        return problem(431, "The header is too long.");
+    if (error == beast::error::timeout) return problem(408, "The request did not come in time.");
+    if (error == bhttp::error::end_of_stream || error == bhttp::error::partial_message) return std::nullopt;
+    if (error.category() == make_error_code(bhttp::error::bad_method).category())
+        return problem(400, "This is not HTTP/1.1: " + error.message() + ".");
+    return std::nullopt;
+}
+
+class TcpSession : public Session {
+  public:
+    TcpSession(tcp::socket socket, SessionContext& context)
+        : m_context(context), m_limits(context.limits), m_stream(std::move(socket)) {
+        m_context.sessions.insert(this);
+        beast::error_code ignored;
+        m_stream.socket().set_option(tcp::no_delay(true), ignored);
+    }
+
+    ~TcpSession() override {
+        m_context.sessions.erase(this);
+        m_context.on_end();
+    }
+
+    asio::awaitable<void> run() override {
+        try {
+            for (bool keep = true; keep && !m_context.stopping;) keep = co_await serve_one();
+        } catch (const std::exception& error) {
+            spdlog::error("connection: {}", error.what());
+        }
+        close();
+    }
+
+    asio::awaitable<void> refuse() override {
+        m_close = true;
+        Response response = problem(503, "There are too many connections.");
+        response.headers.add("Retry-After", "1");
+        co_await write_response(response);
+        close();
+    }
+
+    void stop() override {
+        if (m_idle) close();
+    }
+
+  private:
+    using Parser = bhttp::request_parser<bhttp::string_body>;
+
+    void close() {
+        beast::error_code ignored;
+        m_stream.socket().shutdown(tcp::socket::shutdown_both, ignored);
+        m_stream.close();
+    }
+
+    /// Returns whether the connection may be used again.
+    asio::awaitable<bool> serve_one() {
+        const bool something = co_await wait_for_request();
+        if (!something) co_return false;
+        Parser parser;
+        const beast::error_code header_error = co_await read_header(parser);
+        if (header_error) co_return co_await reject(header_error);
+        m_head = parser.get().method() == bhttp::verb::head;
+        m_version = parser.get().version();
+        m_close = !parser.keep_alive();
+        const beast::error_code body_error = co_await read_body(parser);
+        if (body_error) co_return co_await reject(body_error);
+        Request request = plain_request(parser.release());
+        Answer answer = co_await on_pool(m_context.pool, [&] { return m_context.answer(std::move(request)); });
+        co_return co_await write_answer(std::move(answer));
+    }
+
+    asio::awaitable<bool> wait_for_request() {
+        if (m_buffer.size() > 0) co_return true;
+        m_idle = true;
+        m_stream.expires_after(m_limits.idle_timeout);
+        auto [error, count] = co_await m_stream.async_read_some(m_buffer.prepare(m_limits.header_bytes), token);
+        m_idle = false;
+        m_buffer.commit(count);
+        co_return !error;
+    }
+
+    asio::awaitable<beast::error_code> read_header(Parser& parser) {
+        parser.header_limit(m_limits.header_bytes);
+        // The declared length is held against the limit once the header is there, so that the answer can be a clean
+        // 413.
+        parser.body_limit(boost::none);
+        m_stream.expires_after(m_limits.header_timeout);
+        auto [error, count] = co_await bhttp::async_read_header(m_stream, m_buffer, parser, token);
+        co_return error;
+    }
+
+    asio::awaitable<beast::error_code> read_body(Parser& parser) {
+        const auto length = parser.content_length();
+        if (length && *length > m_limits.body_bytes) co_return bhttp::error::body_limit;
+        parser.body_limit(m_limits.body_bytes);
+        if (equal_ignoring_case(std::string(parser.get()[bhttp::field::expect]), "100-continue")) {
+            const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
+            const bool sent = co_await write_text(go_on);
+            if (!sent) co_return bhttp::error::partial_message;
+        }
+        m_stream.expires_after(m_limits.body_timeout);
+        auto [error, count] = co_await bhttp::async_read(m_stream, m_buffer, parser, token);
+        co_return error;
+    }
+
+    /// Says what is wrong and ends the connection so that the sender gets to read it: closing with unread data would
+    /// reset the connection, and with it the answer.
+    asio::awaitable<bool> reject(beast::error_code error) {
+        const std::optional<Response> response = problem_of(error);
+        if (!response) co_return false;
+        m_close = true;
+        co_await write_response(*response);
+        beast::error_code ignored;
+        m_stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
+        std::array<char, 65536> dropped;
+        m_stream.expires_after(linger_timeout);
+        for (std::uint64_t total = 0; total < m_limits.drain_bytes;) {
+            auto [end, count] = co_await m_stream.async_read_some(asio::buffer(dropped), token);
+            if (end) break;
+            total += count;
+        }
+        co_return false;
+    }
+
+    asio::awaitable<bool> write_answer(Answer answer) {
+        if (auto* response = std::get_if<Response>(&answer)) co_return co_await write_response(*response);
+        if (auto* waiting = std::get_if<Waiting>(&answer)) co_return co_await write_when_ready(*waiting);
+        co_return co_await write_events(std::get<EventStream>(answer));
+    }
+
+    asio::awaitable<bool> write_when_ready(Waiting& waiting) {
+        const auto deadline = SteadyClock::now() + waiting.limit;
+        while (true) {
+            const std::uint64_t seen = m_context.changes.generation();
+            std::optional<Response> response = co_await on_pool(m_context.pool, [&] { return waiting.ready(); });
+            const auto left = std::chrono::ceil<Milliseconds>(deadline - SteadyClock::now());
+            if (!response && (left <= Milliseconds(0) || m_context.stopping))
+                response = co_await on_pool(m_context.pool, [&] { return waiting.otherwise(); });
+            if (response) co_return co_await write_response(*response);
+            const bool there = co_await wait_for_change(seen, left);
+            if (!there) co_return false;
+        }
+    }
+
+    asio::awaitable<bool> write_events(EventStream& stream) {
+        m_close = true;
+        const bool begun = co_await write_stream_head(stream.head);
+        if (!begun || m_head) co_return false;
+        auto next_heartbeat = SteadyClock::now() + m_limits.event_heartbeat;
+        while (!m_context.stopping) {
+            const std::uint64_t seen = m_context.changes.generation();
+            EventChunk chunk = co_await on_pool(m_context.pool, [&] { return stream.next(); });
+            if (chunk.text.empty() && SteadyClock::now() >= next_heartbeat) chunk.text = ":\n\n";
+            if (!chunk.text.empty()) {
+                const bool sent = co_await write_text(chunk.text);
+                if (!sent) co_return false;
+                next_heartbeat = SteadyClock::now() + m_limits.event_heartbeat;
+            }
+            if (chunk.last) break;
+            const auto left = std::chrono::ceil<Milliseconds>(next_heartbeat - SteadyClock::now());
+            const bool there = co_await wait_for_change(seen, std::max(left, Milliseconds(0)));
+            if (!there) co_return false;
+        }
+        co_return false;
+    }
+
+    /// Returns false if the other side has gone meanwhile.
+    asio::awaitable<bool> wait_for_change(std::uint64_t seen, Milliseconds limit) {
+        if (m_read_ahead) {
+            co_await m_context.changes.wait(seen, limit);
+            co_return true;
+        }
+        const auto first = co_await (m_context.changes.wait(seen, limit) ||
+                                     m_stream.socket().async_wait(tcp::socket::wait_read, token));
+        if (first.index() == 0) co_return true;
+        beast::error_code error;
+        // What is readable is either the end of the connection or a request sent ahead of its time.
+        m_read_ahead = m_stream.socket().available(error) > 0;
+        co_return !error && m_read_ahead;
+    }
+
+    template <typename Body>
+    void fill_head(bhttp::response<Body>& message, const Response& response) {
+        message.result(static_cast<unsigned>(response.status));
+        message.reason(status_phrase(response.status));
+        message.version(11);
+        for (const auto& [name, value] : response.headers.fields()) message.insert(name, value);
+        message.set(bhttp::field::date, http_date());
+        message.keep_alive(!m_close && !m_context.stopping && m_version == 11);
+    }
+
+    asio::awaitable<bool> write_response(const Response& response) {
+        m_read_ahead = false;
+        const auto* file = std::get_if<std::filesystem::path>(&response.body);
+        if (file) co_return co_await write_file(response, *file);
+        const std::string& text = std::get<std::string>(response.body);
+        const bool has_body = response.status != 204 && response.status != 304;
+        if (m_head || !has_body)
+            co_return co_await write_empty(response, has_body ? std::optional(text.size()) : std::nullopt);
+        bhttp::response<bhttp::string_body> message;
+        fill_head(message, response);
+        message.body() = text;
+        message.prepare_payload();
+        co_return co_await write_message(message);
+    }
+
+    asio::awaitable<bool> write_file(const Response& response, const std::filesystem::path& path) {
+        beast::error_code error;
+        bhttp::response<bhttp::file_body> message;
+        message.body().open(path.c_str(), beast::file_mode::scan, error);
+        if (error) co_return co_await write_response(problem(500, "The file cannot be read."));
+        if (m_head) co_return co_await write_empty(response, message.body().size());
+        fill_head(message, response);
+        message.prepare_payload();
+        co_return co_await write_message(message);
+    }
+
+    /// A head without a body; `length` is what the body would have.
+    asio::awaitable<bool> write_empty(const Response& response, std::optional<std::uint64_t> length) {
+        bhttp::response<bhttp::empty_body> message;
+        fill_head(message, response);
+        if (length) message.content_length(*length);
+        co_return co_await write_message(message);
+    }
+
+    asio::awaitable<bool> write_stream_head(const Response& head) {
+        bhttp::response<bhttp::empty_body> message;
+        fill_head(message, head);
+        co_return co_await write_message(message);
+    }
+
+    template <typename Body>
+    asio::awaitable<bool> write_message(bhttp::response<Body>& message) {
+        bhttp::response_serializer<Body> serializer(message);
+        const bool keep = message.keep_alive();
+        while (!serializer.is_done()) {
+            m_stream.expires_after(m_limits.write_timeout);
+            auto [error, count] = co_await bhttp::async_write_some(m_stream, serializer, token);
+            if (error) co_return false;
+        }
+        m_stream.expires_never();
+        co_return keep;
+    }
+
+    asio::awaitable<bool> write_text(const std::string& text) {
+        m_stream.expires_after(m_limits.write_timeout);
+        auto [error, count] = co_await asio::async_write(m_stream, asio::buffer(text), token);
+        m_stream.expires_never();
+        co_return !error;
+    }
+
+    SessionContext& m_context;
+    const Limits& m_limits;
+    beast::tcp_stream m_stream;
+    beast::flat_buffer m_buffer;
+    unsigned m_version = 11;
+    bool m_idle = false;
+    bool m_head = false;
+    bool m_close = false;
+    bool m_read_ahead = false;  ///< whether the next request is there already
+};
+
+}  // namespace
+
+std::shared_ptr<Session> make_session(tcp::socket socket, SessionContext& context) {
+    return std::make_shared<TcpSession>(std::move(socket), context);
+}
+
+}  // namespace sheer::http
