@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "server/http/limits.h"
+#include "server/jobs/lease_rules.h"
+#include "server/worker/worker.h"
+
+namespace sheer::cli {
+
+/// Everything that the service and its workers can be told: configs/server.json with defaults filled in.
+struct ServiceConfig {
+    std::string listen;  ///< ADDRESS:PORT
+    std::filesystem::path data;
+    int workers = 1;
+    std::set<std::string> allowed_hosts;
+    http::Limits http;
+    std::size_t max_queued = 0;
+    std::chrono::seconds max_wait{};
+    std::chrono::seconds ready_within{};
+    std::chrono::seconds devices_cache{};
+    LeaseRules leases;
+    WorkerOptions worker;  ///< without `data` and `name`
+};
+
+/// Throws SpecError that names every wrong or unknown field.
+ServiceConfig read_service_config(const nlohmann::json& document);
+/// The defaults if `path` is empty. Throws SpecError, also if there is no such file or it is not JSON.
+ServiceConfig load_service_config(const std::filesystem::path& path);
+
+}  // namespace sheer::cli
