@@ -1,7 +1,16 @@
+#include <spdlog/cfg/env.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include "server/cli/commands.h"
 #include "version.h"
 
 int main(int argc, char** argv) {
+    // The log goes to stderr, so that stdout is the commands' own; SPDLOG_LEVEL=info says more.
+    spdlog::set_default_logger(spdlog::stderr_color_mt("sheer"));
+    spdlog::set_level(spdlog::level::warn);
+    spdlog::cfg::load_env_levels();
+
     CLI::App app{"Sheer compares transparency methods: images, timings and differences of a scene, as a report."};
     app.set_version_flag("--version", std::string("sheer ") + sheer::version + " (" + sheer::commit + ")");
     app.require_subcommand(1);

@@ -43,7 +43,7 @@ class DepthPeeling : public Method {
         {
             const auto pass = timer.pass("peel", gl::Phase::transparent);
             m_accumulation.clear(1);
-            clear(m_layers[1]);
+            clear(m_layers[1], -1);
             for (std::size_t i = 0; peel(m_layers[i % 2], m_layers[1 - i % 2]); ++i) blend(m_layers[i % 2]);
         }
         const auto pass = timer.pass("composite", gl::Phase::finalization);
@@ -65,13 +65,14 @@ class DepthPeeling : public Method {
         return gl::make_texture_2d(m_gl, "depth peeling: " + what, format, m_target.width_px(), m_target.height_px());
     }
 
-    void clear(const Layer& layer) const {
+    /// `depth` is what the next pass finds where this one keeps nothing: -1 is before everything, 2 behind everything.
+    void clear(const Layer& layer, float depth) const {
         begin_pass(m_gl, layer.framebuffer, m_target.width_px(), m_target.height_px());
-        const glm::vec4 no_color(0), before_all(-1);
+        const glm::vec4 no_color(0), no_depth(depth);
         const glm::uvec4 no_primitive(0);
         const float far_depth = 1;
         m_gl.ClearBufferfv(GL_COLOR, 0, &no_color[0]);
-        m_gl.ClearBufferfv(GL_COLOR, 1, &before_all[0]);
+        m_gl.ClearBufferfv(GL_COLOR, 1, &no_depth[0]);
         m_gl.ClearBufferuiv(GL_COLOR, 2, &no_primitive[0]);
         m_gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
     }
@@ -79,7 +80,7 @@ class DepthPeeling : public Method {
     /// Whether a fragment was left. Drawn in submission order with LEQUAL, so that of equal depths the later submitted
     /// wins, which is the one that counts as nearer.
     bool peel(const Layer& layer, const Layer& last) const {
-        clear(layer);
+        clear(layer, 2);
         m_gl.Enable(GL_DEPTH_TEST);
         m_gl.DepthFunc(GL_LEQUAL);
         m_gl.BindTextureUnit(unit_depth, m_target.depth().id());

@@ -16,12 +16,12 @@ constexpr int texture_count = 4;
 /// What `shading` of a spec means to shaders/scenes/real_work.glsl.
 struct Shading {
     const char* name;
-    int textures, samples_per_texture;
+    int reads;  // texture reads of a fragment, from the textures in turn
     bool math;
 };
-constexpr Shading shadings[] = {{"constant", 0, 0, false},        {"1-texture", 1, 1, false},
-                                {"4-textures", 4, 1, false},      {"4-textures-math", 4, 1, true},
-                                {"4x4-textures", 4, 4, false},    {"4x4-textures-math", 4, 4, true}};
+constexpr Shading shadings[] = {{"constant", 0, false},     {"1-texture", 1, false},
+                                {"4-textures", 4, false},   {"4-textures-math", 4, true},
+                                {"4x4-textures", 16, false}, {"4x4-textures-math", 16, true}};
 
 const Shading& find_shading(const std::string& name) {
     for (const Shading& shading : shadings)
@@ -43,9 +43,9 @@ void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry)
 Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters)
     : m_gl(gl), m_parallel(geometry.parallel), m_view_projection(geometry.view_projection) {
     const Shading& shading = find_shading(parameters.at("shading").get<std::string>());
-    m_shading_prolog = define("TEXTURES", shading.textures) + define("SAMPLES_PER_TEXTURE", shading.samples_per_texture) +
-                       define("MATH", shading.math);
-    if (shading.textures > 0) make_textures(parameters.at("texture"));
+    m_reads = shading.reads;
+    m_shading_prolog = define("TEXTURED", shading.reads > 0) + define("MATH", shading.math);
+    if (shading.reads > 0) make_textures(parameters.at("texture"));
 
     m_vertices = gl::make_buffer(gl, "scene vertices", static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(Vertex)),
                                  geometry.vertices.data());
@@ -91,21 +91,24 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
 }
 
 void Scene::make_textures(const nlohmann::json& texture) {
+    GLuint id = 0;
+    m_gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+    m_textures = gl::Texture(m_gl, id, "scene textures");
     for (int variant = 0; variant < texture_count; ++variant) {
-        const auto levels =
-            make_texture(texture.at("image").get<std::string>(), texture.at("size").get<int>(), variant);
-        const int size = levels.front().size_px;
-        gl::Texture object = gl::make_texture_2d(m_gl, "scene texture " + std::to_string(variant), GL_RGBA8, size, size,
-                                                 static_cast<int>(levels.size()));
-        for (std::size_t level = 0; level < levels.size(); ++level)
-            m_gl.TextureSubImage2D(object.id(), static_cast<GLint>(level), 0, 0, levels[level].size_px,
-                                   levels[level].size_px, GL_RGBA, GL_UNSIGNED_BYTE, levels[level].rgba.data());
-        m_gl.TextureParameteri(object.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        m_gl.TextureParameteri(object.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        m_gl.TextureParameteri(object.id(), GL_TEXTURE_WRAP_S, GL_REPEAT);
-        m_gl.TextureParameteri(object.id(), GL_TEXTURE_WRAP_T, GL_REPEAT);
-        m_textures.push_back(std::move(object));
+        const auto levels = make_texture(texture.at("image").get<std::string>(), texture.at("size").get<int>(), variant);
+        const auto level_count = static_cast<GLsizei>(levels.size());
+        if (variant == 0)
+            m_gl.TextureStorage3D(id, level_count, GL_RGBA8, levels[0].size_px, levels[0].size_px, texture_count);
+        for (GLint level = 0; level < level_count; ++level) {
+            const TextureLevel& pixels = levels[static_cast<std::size_t>(level)];
+            m_gl.TextureSubImage3D(id, level, 0, 0, variant, pixels.size_px, pixels.size_px, 1, GL_RGBA,
+                                   GL_UNSIGNED_BYTE, pixels.rgba.data());
+        }
     }
+    m_gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    m_gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_REPEAT);
 }
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source, const std::string& prolog) const {
@@ -119,8 +122,8 @@ void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
     program.set("u_view_projection", m_view_projection);
     m_gl.BindVertexArray(m_vertex_array.id());
     m_gl.VertexArrayElementBuffer(m_vertex_array.id(), indices.id());
-    for (std::size_t unit = 0; unit < m_textures.size(); ++unit)
-        m_gl.BindTextureUnit(static_cast<GLuint>(unit), m_textures[unit].id());
+    program.set("u_reads", m_reads);
+    if (m_textures) m_gl.BindTextureUnit(0, m_textures.id());
 }
 
 void Scene::draw_opaque(const gl::Program& program) const {

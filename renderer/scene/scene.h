@@ -27,7 +27,7 @@ class Scene {
     gl::Program make_program(std::string_view label, std::string_view method_source,
                              const std::string& prolog = {}) const;
 
-    /// Draws with `program` (of make_program) in use; binds the vertex array and texture units 0 to 3.
+    /// Draws with `program` (of make_program) in use; binds the vertex array and texture unit 0.
     void draw_opaque(const gl::Program& program) const;
     void draw_transparent(const gl::Program& program, Order order) const;
     /// `count` primitives from the `first` in this order.
@@ -53,7 +53,8 @@ class Scene {
     gl::VertexArray m_vertex_array;
     DrawList m_opaque;
     DrawList m_lists[3];  ///< by Order
-    std::vector<gl::Texture> m_textures;
+    int m_reads = 0;
+    gl::Texture m_textures;  ///< an array of four
 };
 
 /// First texture unit that methods may use.

@@ -76,7 +76,7 @@ std::vector<std::string> metric_names() {
     std::vector<std::string> names = {"speedup", "timing.median", "timing.min", "timing.p95"};
     for (const MetricInfo& metric : all_metrics())
         for (const MetricField& field : metric.fields)
-            names.push_back(field.name.empty() ? metric.id : metric.id + "." + field.name);
+            if (field.is_number) names.push_back(field.name.empty() ? metric.id : metric.id + "." + field.name);
     return names;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "renderer/compare.h"
+#include "renderer/frame/target.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
 #include "server/cli/rendering.h"

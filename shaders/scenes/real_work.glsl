@@ -1,15 +1,18 @@
-// The scene's shading, RealWork of the SCCG 2010 paper, section 2.2. Set before: TEXTURES (0, 1 or 4),
-// SAMPLES_PER_TEXTURE (1 or 4), MATH (0 or 1: every sampled position is bent by trigonometric functions).
+// The scene's shading, RealWork of the SCCG 2010 paper, section 2.2. Set before: TEXTURED (0 or 1), MATH (0 or 1: every
+// sampled position is bent by trigonometric functions).
 
 in vec2 v_uv;
 in vec4 v_tint;
 flat in uint v_primitive;
 
-#if TEXTURES > 0
-layout(binding = 0) uniform sampler2D u_texture_0;
-layout(binding = 1) uniform sampler2D u_texture_1;
-layout(binding = 2) uniform sampler2D u_texture_2;
-layout(binding = 3) uniform sampler2D u_texture_3;
+#if TEXTURED
+layout(binding = 0) uniform sampler2DArray u_textures;
+
+// 1, 4 or 16. A uniform, so that the loop stays a loop: llvmpipe runs both sides of a branch, and only a loop that no
+// lane is in any more is left early. Unrolled, a discarded fragment would cost as much as a shaded one.
+uniform int u_reads;
+
+const int texture_count = 4;
 
 vec2 position(vec2 uv, float number) {
 #if MATH
@@ -20,27 +23,17 @@ vec2 position(vec2 uv, float number) {
 #endif
 }
 
-vec4 samples(sampler2D image, vec2 uv, float number) {
-#if SAMPLES_PER_TEXTURE == 1
-    return texture(image, position(uv, number));
-#else
-    vec4 sum = texture(image, position(uv, number));
-    sum += texture(image, position(uv + vec2(0.07, 0.02), number + 1.0));
-    sum += texture(image, position(uv + vec2(-0.03, 0.06), number + 2.0));
-    sum += texture(image, position(uv + vec2(0.04, -0.05), number + 3.0));
-    return sum * 0.25;
-#endif
-}
-#endif
-
 vec4 real_work(vec2 uv, vec4 tint) {
-#if TEXTURES == 0
-    return tint;
-#elif TEXTURES == 1
-    return samples(u_texture_0, uv, 0.0) * tint;
-#else
-    vec4 sum = samples(u_texture_0, uv, 0.0) + samples(u_texture_1, uv, 4.0) + samples(u_texture_2, uv, 8.0) +
-               samples(u_texture_3, uv, 12.0);
-    return sum * 0.25 * tint;
-#endif
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < u_reads; ++i) {
+        int round = i / texture_count;
+        vec2 offset = 0.06 * vec2(float(round & 1), float(round >> 1));
+        sum += texture(u_textures, vec3(position(uv + offset, float(i)), float(i % texture_count)));
+    }
+    return sum / float(u_reads) * tint;
 }
+#else
+vec4 real_work(vec2 uv, vec4 tint) {
+    return tint;
+}
+#endif
