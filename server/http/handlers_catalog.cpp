@@ -48,6 +48,8 @@ std::vector<Route> catalog_routes(Service& service) {
                           fixed_json(describe_methods())),
             catalog_route("/api/v1/scenes", "listScenes", "The scene types with their parameters",
                           fixed_json(describe_scenes())),
+            catalog_route("/api/v1/metrics", "listMetrics", "The metrics with their fields",
+                          fixed_json(describe_metrics())),
             catalog_route("/api/v1/devices", "listDevices", "The devices that can render",
                           [&service](const Request&) { return get_devices(service); })};
 }

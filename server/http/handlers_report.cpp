@@ -17,10 +17,11 @@ namespace {
 
 constexpr std::uintmax_t max_picture_bytes = std::uintmax_t{512} << 20;
 
-// The page carries its own style, script and pictures; the sandbox keeps it from acting under the service's origin.
+// The page carries its own style, scripts and pictures; the sandbox keeps it from acting under the service's origin.
 constexpr const char* page_policy =
-    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; frame-ancestors 'self'; "
-    "sandbox allow-scripts";
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' data:; "
+    "frame-ancestors 'self'; "
+    "sandbox allow-scripts allow-downloads";
 
 ReportRecord found(Service& service, const Request& request) {
     const auto record = service.store.find(request.path_values.at("id"));
