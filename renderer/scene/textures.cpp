@@ -125,8 +125,8 @@ vec4 smoke_texel(vec2 p, const Noise& noise) {
     const vec2 bent = p + 0.12f * vec2(noise.fractal(p, 4, 3) - 0.5f, noise.fractal(vec2(p.y, p.x), 4, 3) - 0.5f);
     const float billow = noise.fractal(bent, 4, 6);
     const float radius = 2 * std::sqrt(from_middle.x * from_middle.x + from_middle.y * from_middle.y);
-    const float falloff = smooth_step(1, 0.2f, radius + 0.7f * (0.5f - billow));
-    const float density = falloff * smooth_step(0.2f, 0.75f, billow);
+    const float falloff = smooth_step(1, 0.15f, radius + 1.2f * (0.5f - billow));
+    const float density = falloff * smooth_step(0.2f, 0.5f, billow);
     const float light = 0.35f + 0.6f * noise.fractal(bent + vec2(0.05f, 0.08f), 4, 5);
     return vec4(vec3(light) * vec3(1.0f, 0.98f, 0.95f), std::min(0.9f * density, 1.0f));
 }
