@@ -107,7 +107,7 @@ http::Limits limits_of(const json& read) {
 }  // namespace
 
 ServiceConfig read_service_config(const json& document) {
-    if (!document.is_object()) throw SpecError({{"", "must be a JSON object"}});
+    if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "must be a JSON object"}});
     std::vector<FieldError> errors;
     const json read = read_fields(document, "", config_fields(), errors);
     std::set<std::string> hosts = read_hosts(read["allowed_hosts"], errors);
@@ -135,9 +135,9 @@ ServiceConfig read_service_config(const json& document) {
 ServiceConfig load_service_config(const std::filesystem::path& path) {
     if (path.empty()) return read_service_config(json::object());
     std::ifstream file(path);
-    if (!file) throw SpecError({{"", "cannot read " + path.string()}});
+    if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read " + path.string()}});
     const json document = json::parse(file, nullptr, false, true);
-    if (document.is_discarded()) throw SpecError({{"", path.string() + " is not JSON"}});
+    if (document.is_discarded()) throw SpecError(std::vector<FieldError>{{"", path.string() + " is not JSON"}});
     return read_service_config(document);
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t max_text_bytes = 200;
 ListFilter filter_of(const json& query) {
     ListFilter filter{.q = query["q"], .tag = query["tag"], .method = query["method"], .scene = query["scene"]};
     filter.limit = query["limit"];
-    filter.status = status_from(query["status"].get<std::string>());
+    if (query["status"].is_string()) filter.status = status_from(query["status"].get<std::string>());
     const std::string cursor = query["cursor"];
     if (cursor.empty()) return filter;
     const auto id = id_of_cursor(cursor);
@@ -46,16 +46,17 @@ Answer get_blob(Service& service, const Request& request) {
 }
 
 std::vector<Param> list_query() {
-    std::vector<std::string> statuses{""};
-    for (const Status status : {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled})
-        statuses.emplace_back(status_text(status));
+    Param status{.name = "status", .kind = Param::Kind::choice, .summary = "how far the reports are"};
+    status.optional = true;
+    for (const Status each : {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled})
+        status.choices.emplace_back(status_text(each));
     return {Param::integer("limit", "how many reports at most", "", 20, 1, 100),
             Param::text("cursor", "next_cursor of the page before", "", max_text_bytes),
             Param::text("q", "part of the title or of a tag's value, without regard to case", "", max_text_bytes),
             Param::text("tag", "name of a tag, or name:value", "", max_text_bytes),
             Param::text("method", "id of a method that is compared", "", max_text_bytes),
             Param::text("scene", "type of the scene", "", max_text_bytes),
-            Param::choice("status", "how far the reports are", "", statuses)};
+            std::move(status)};
 }
 
 }  // namespace

@@ -285,20 +285,26 @@ class TcpSession : public Session {
     asio::awaitable<bool> write_stream_head(const Response& head) {
         bhttp::response<bhttp::empty_body> message;
         fill_head(message, head);
-        co_return co_await write_message(message);
+        co_return co_await send(message);
+    }
+
+    /// Returns whether the connection may be used again.
+    template <typename Body>
+    asio::awaitable<bool> write_message(bhttp::response<Body>& message) {
+        const bool sent = co_await send(message);
+        co_return sent&& message.keep_alive();
     }
 
     template <typename Body>
-    asio::awaitable<bool> write_message(bhttp::response<Body>& message) {
+    asio::awaitable<bool> send(bhttp::response<Body>& message) {
         bhttp::response_serializer<Body> serializer(message);
-        const bool keep = message.keep_alive();
         while (!serializer.is_done()) {
             m_stream.expires_after(m_limits.write_timeout);
             auto [error, count] = co_await bhttp::async_write_some(m_stream, serializer, token);
             if (error) co_return false;
         }
         m_stream.expires_never();
-        co_return keep;
+        co_return true;
     }
 
     asio::awaitable<bool> write_text(const std::string& text) {
