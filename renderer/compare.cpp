@@ -23,7 +23,7 @@ constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0
 
 /// The stages of one point; each fills in its part of the run.
 class Comparer {
- public:
+  public:
     Comparer(const Spec& spec, gl::Context& context, const ProgressFunction& progress)
         : m_spec(spec), m_context(context), m_progress(progress), m_timer(context) {}
 
@@ -40,7 +40,7 @@ class Comparer {
         return run;
     }
 
- private:
+  private:
     struct Contender {
         std::unique_ptr<Method> method;  ///< null where it is not supported
         MethodResult* result;
@@ -48,7 +48,12 @@ class Comparer {
 
     gl::FrameSample render(Method& method, bool timed) {
         m_timer.begin_frame(timed);
-        method.render(m_timer);
+        try {
+            method.render(m_timer);
+        } catch (...) {
+            m_timer.end_frame();
+            throw;
+        }
         return m_timer.end_frame();
     }
 
@@ -76,8 +81,8 @@ class Comparer {
         m_timer.end_frame();
         const double peeled = static_cast<double>(overdraw.total()) * (overdraw.greatest() + 1.0);
         if (peeled > max_peeled_fragments) {
-            run.no_residual_reason = fmt::format("depth peeling would draw {:.3g} fragments; the limit is {:.3g}", peeled,
-                                                 max_peeled_fragments);
+            run.no_residual_reason = fmt::format("depth peeling would draw {:.3g} fragments; the limit is {:.3g}",
+                                                 peeled, max_peeled_fragments);
             return;
         }
         m_progress(references_begin, "checking the reference against depth peeling");

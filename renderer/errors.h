@@ -13,11 +13,11 @@ struct FieldError {
 
 /// The caller's mistake: every wrong field at once. HTTP 422, exit code 2.
 class SpecError : public std::runtime_error {
- public:
+  public:
     explicit SpecError(std::vector<FieldError> errors);
     const std::vector<FieldError>& errors() const { return m_errors; }
 
- private:
+  private:
     std::vector<FieldError> m_errors;
 };
 
@@ -33,7 +33,7 @@ class RenderError : public std::runtime_error {
 
 /// The caller asked to stop.
 class Cancelled : public std::runtime_error {
- public:
+  public:
     Cancelled() : std::runtime_error("cancelled") {}
 };
 

@@ -6,7 +6,7 @@ namespace sheer {
 /// The off-screen picture of front-to-back blending (SCCG 2010, section 2): premultiplied colour and, in the alpha
 /// channel, the transmittance that is left, 1 - opacity. It shares the depth of the target's opaque pass.
 class Accumulation {
- public:
+  public:
     /// With `separate_alpha` the transmittance is also kept in a texture of one channel, colour output 1, for reading.
     Accumulation(const gl::Functions& gl, const Target& target, PixelFormat format, bool separate_alpha = false);
 
@@ -23,7 +23,7 @@ class Accumulation {
     const gl::Texture& readable_alpha() const { return m_separate_alpha ? m_alpha : m_color; }
     std::int64_t memory_bytes() const;
 
- private:
+  private:
     const gl::Functions& m_gl;
     const Target& m_target;
     PixelFormat m_format;

@@ -5,11 +5,11 @@ namespace sheer {
 
 /// Classical blending, SRC_ALPHA over ONE_MINUS_SRC_ALPHA, straight into the target, in any order.
 class ClassicalBlending : public Method {
- public:
+  public:
     ClassicalBlending(const MethodSetup& setup, Order order);
     void render(gl::FrameTimer& timer) override;
 
- private:
+  private:
     const gl::Functions& m_gl;
     const Scene& m_scene;
     const Target& m_target;

@@ -7,14 +7,14 @@ namespace sheer {
 /// Front-to-back blending in which a fragment reads the transmittance that is left and gives up where that is under a
 /// threshold: SCCG 2010, sections 2.1 and 2.2. The parameters are those of `discarding_parameters()`.
 class DiscardingBlending : public Method {
- public:
+  public:
     /// `initial_transmittance` is 1 for F2BD and 0 for F2BX, which discards everything.
     /// Throws Unsupported for framebuffer_fetch where the driver lacks it.
     DiscardingBlending(const MethodSetup& setup, float initial_transmittance);
     void render(gl::FrameTimer& timer) override;
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
- private:
+  private:
     enum class Sync { barrier, rebind, none };
     void synchronise() const;
     void draw_batches() const;

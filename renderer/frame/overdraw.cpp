@@ -5,9 +5,13 @@
 
 namespace sheer {
 
-std::uint64_t Overdraw::total() const { return total_in(0, 0, width_px, height_px); }
+std::uint64_t Overdraw::total() const {
+    return total_in(0, 0, width_px, height_px);
+}
 
-std::uint32_t Overdraw::greatest() const { return counts.empty() ? 0 : *std::ranges::max_element(counts); }
+std::uint32_t Overdraw::greatest() const {
+    return counts.empty() ? 0 : *std::ranges::max_element(counts);
+}
 
 std::uint64_t Overdraw::total_in(int x0, int y0, int x1, int y1) const {
     std::uint64_t sum = 0;
@@ -34,7 +38,8 @@ Overdraw count_overdraw(const gl::Functions& gl, const Scene& scene, const Targe
         scene.draw_transparent(program, Order::submission);
     }
     std::vector<float> values(static_cast<std::size_t>(width) * height);
-    gl.GetTextureImage(counter.id(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+    gl.GetTextureImage(counter.id(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
+                       values.data());
     return {width, height, std::vector<std::uint32_t>(values.begin(), values.end())};
 }
 

@@ -12,7 +12,7 @@ namespace sheer {
 
 /// The picture that methods render into: colour in the spec's format, depth in 32-bit floats. Row 0 is the top row.
 class Target {
- public:
+  public:
     Target(const gl::Functions& gl, const ImageSpec& image, PixelFormat format);
 
     int width_px() const { return m_image.width_px; }
@@ -26,7 +26,7 @@ class Target {
     /// Waits for the device and copies the picture.
     Image read() const;
 
- private:
+  private:
     const gl::Functions& m_gl;
     ImageSpec m_image;
     PixelFormat m_format;
@@ -48,11 +48,11 @@ void set_transparent_depth_state(const gl::Functions& gl);
 
 /// First pass of most methods: clears to the background and draws the opaque primitives with depth.
 class OpaquePass {
- public:
+  public:
     OpaquePass(const gl::Functions& gl, const Scene& scene, const Target& target);
     void draw(gl::FrameTimer& timer) const;
 
- private:
+  private:
     const gl::Functions& m_gl;
     const Scene& m_scene;
     const Target& m_target;
@@ -61,14 +61,14 @@ class OpaquePass {
 
 /// A triangle over the whole target, with a fragment program of its own.
 class FullscreenPass {
- public:
+  public:
     /// `source` is GLSL after #version and `prolog`.
     FullscreenPass(const gl::Functions& gl, std::string_view label, std::string_view source,
                    const std::string& prolog = {});
     const gl::Program& program() const { return m_program; }
     void draw() const;
 
- private:
+  private:
     const gl::Functions& m_gl;
     gl::Program m_program;
     gl::VertexArray m_vertex_array;

@@ -1,9 +1,8 @@
 // The second reference, built on nothing that `exact` uses: depth peeling (Everitt, Interactive Order-Independent
 // Transparency, NVIDIA 2001). Each pass draws everything and keeps, per pixel, the nearest fragment behind the one that
-// the last pass kept; the layers are composited from near to far in 32-bit floats until a pass keeps nothing. Fragments of
-// equal depth are told apart by their primitive, so that none is lost.
-// Good at: being right without sorting, lists or atomics. Bad at: draws the whole scene once per layer.
-// No parameters.
+// the last pass kept; the layers are composited from near to far in 32-bit floats until a pass keeps nothing. Fragments
+// of equal depth are told apart by their primitive, so that none is lost. Good at: being right without sorting, lists
+// or atomics. Bad at: draws the whole scene once per layer. No parameters.
 #include <array>
 
 #include "renderer/frame/accumulation.h"
@@ -17,7 +16,7 @@ constexpr GLuint unit_depth = first_method_texture_unit + 1, unit_last_depth = u
                  unit_last_primitive = unit_depth + 2, unit_layer = unit_depth + 3;
 
 class DepthPeeling : public Method {
- public:
+  public:
     explicit DepthPeeling(const MethodSetup& setup)
         : m_gl(setup.gl),
           m_scene(setup.scene),
@@ -32,9 +31,9 @@ class DepthPeeling : public Method {
             layer.color = texture("color", GL_RGBA32F);
             layer.depth = texture("fragment depth", GL_R32F);
             layer.primitive = texture("fragment primitive", GL_R32UI);
-            layer.framebuffer =
-                gl::make_framebuffer(m_gl, "depth peeling: layer",
-                                     std::array{layer.color.id(), layer.depth.id(), layer.primitive.id()}, m_depth.id());
+            layer.framebuffer = gl::make_framebuffer(
+                m_gl, "depth peeling: layer", std::array{layer.color.id(), layer.depth.id(), layer.primitive.id()},
+                m_depth.id());
         }
     }
 
@@ -55,7 +54,7 @@ class DepthPeeling : public Method {
         return m_accumulation.memory_bytes() + pixels * (2 * 24 + 4);
     }
 
- private:
+  private:
     struct Layer {
         gl::Texture color, depth, primitive;
         gl::Framebuffer framebuffer;
@@ -126,7 +125,9 @@ MethodInfo method_depth_peeling() {
         .bad_at = "Draws the whole scene as often as there are layers in the deepest pixel.",
         .memory = "68 bytes per pixel",
         .needs_sorting = false,
-        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> { return std::make_unique<DepthPeeling>(setup); },
+        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {
+            return std::make_unique<DepthPeeling>(setup);
+        },
     };
 }
 

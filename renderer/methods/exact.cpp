@@ -17,7 +17,7 @@ namespace sheer {
 
 namespace {
 
-constexpr std::int64_t node_bytes = 28;  // colour 16, depth 4, primitive 4, next 4
+constexpr std::int64_t node_bytes = 28;      // colour 16, depth 4, primitive 4, next 4
 constexpr std::int64_t loop_budget = 40000;  // iterations in one pass, under llvmpipe's 65,535
 
 struct Tile {
@@ -46,7 +46,7 @@ void divide(const Overdraw& overdraw, Tile tile, std::uint64_t capacity, std::ve
 }
 
 class LinkedLists : public Method {
- public:
+  public:
     explicit LinkedLists(const MethodSetup& setup)
         : m_gl(setup.gl),
           m_scene(setup.scene),
@@ -72,7 +72,7 @@ class LinkedLists : public Method {
 
     std::int64_t memory_bytes() const override { return m_memory_bytes; }
 
- private:
+  private:
     static std::string source(const std::string& stage) {
         return std::string(gl::shader_file("methods/exact_lists.glsl")) +
                std::string(gl::shader_file("methods/exact_" + stage + ".glsl"));
@@ -158,7 +158,7 @@ class LinkedLists : public Method {
 };
 
 class SortedFloats : public Method {
- public:
+  public:
     explicit SortedFloats(const MethodSetup& setup)
         : m_scene(setup.scene),
           m_opaque(setup.gl, setup.scene, setup.target),
@@ -179,7 +179,7 @@ class SortedFloats : public Method {
 
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
- private:
+  private:
     const Scene& m_scene;
     OpaquePass m_opaque;
     Accumulation m_accumulation;

@@ -11,7 +11,7 @@ namespace sheer {
 namespace {
 
 class FrontToBack : public Method {
- public:
+  public:
     explicit FrontToBack(const MethodSetup& setup)
         : m_scene(setup.scene),
           m_opaque(setup.gl, setup.scene, setup.target),
@@ -35,7 +35,7 @@ class FrontToBack : public Method {
 
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
- private:
+  private:
     const Scene& m_scene;
     OpaquePass m_opaque;
     Accumulation m_accumulation;
@@ -54,7 +54,9 @@ MethodInfo method_f2b() {
         .good_at = "The same picture as B2F; cheaper blend factors; the base of every early-discard method.",
         .bad_at = "One more texture, a clear and a full-screen pass, which do not pay below about 16 quads.",
         .memory = "one pixel of the image format",
-        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> { return std::make_unique<FrontToBack>(setup); },
+        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {
+            return std::make_unique<FrontToBack>(setup);
+        },
     };
 }
 

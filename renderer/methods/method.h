@@ -24,7 +24,7 @@ struct MethodSetup {
 
 /// A transparency method, ready to render one scene into one target again and again.
 class Method {
- public:
+  public:
     virtual ~Method() = default;
     /// Renders a whole frame, opaque geometry included, into the target. Each pass sets the GL state it needs.
     virtual void render(gl::FrameTimer& timer) = 0;
@@ -36,12 +36,12 @@ class Method {
 struct MethodInfo {
     std::string id;
     std::string name;
-    std::string kind;     ///< e.g. "sorted blending", "reference"
+    std::string kind;  ///< e.g. "sorted blending", "reference"
     std::string summary;
-    std::string paper;    ///< where it comes from
+    std::string paper;  ///< where it comes from
     std::string good_at;
     std::string bad_at;
-    std::string memory;   ///< per pixel, beside the target
+    std::string memory;         ///< per pixel, beside the target
     bool needs_sorting = true;  ///< false where the order of submission does not matter or is what is drawn
     std::vector<Param> parameters;
     std::string no_metrics_reason;  ///< set where the picture is not meant to be right, so has no error metrics

@@ -12,11 +12,20 @@ std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
         switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
         }
     }
     return result;
@@ -44,10 +53,11 @@ std::string report_junit(const json& report) {
         std::string problem;
         if (!check["passed"].get<bool>()) {
             ++failures;
-            problem = fmt::format("<failure message=\"{}\"/>", escaped("is " + check["value"].dump() + ", wanted" + limits(check)));
+            problem = fmt::format("<failure message=\"{}\"/>",
+                                  escaped("is " + check["value"].dump() + ", wanted" + limits(check)));
         }
-        std::string name = fmt::format("{} of {}{}", check["metric"].get<std::string>(), check["method"].get<std::string>(),
-                                       limits(check));
+        std::string name = fmt::format("{} of {}{}", check["metric"].get<std::string>(),
+                                       check["method"].get<std::string>(), limits(check));
         if (!check["at"].empty()) name += " at " + check["at"].dump();
         cases += test_case(name, problem);
     }
@@ -65,10 +75,10 @@ std::string report_junit(const json& report) {
             cases += test_case("renders " + result["label"].get<std::string>(), problem);
         }
     }
-    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
-                       "errors=\"0\" skipped=\"{}\" timestamp=\"{}\">\n{}</testsuite>\n",
-                       escaped(report["spec"]["title"]), count, failures, skipped,
-                       escaped(report["created_at"]), cases);
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
+        "errors=\"0\" skipped=\"{}\" timestamp=\"{}\">\n{}</testsuite>\n",
+        escaped(report["spec"]["title"]), count, failures, skipped, escaped(report["created_at"]), cases);
 }
 
 }  // namespace sheer

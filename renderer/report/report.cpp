@@ -2,12 +2,12 @@
 
 #include <openssl/evp.h>
 
+#include <fmt/chrono.h>
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <fmt/chrono.h>
-#include <fmt/format.h>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -42,14 +42,15 @@ std::string file_name(const std::string& label) {
 }
 
 class ReportMaker {
- public:
+  public:
     ReportMaker(const Spec& spec, const Comparison& comparison, BlobSink& sink)
         : m_spec(spec), m_comparison(comparison), m_sink(sink) {}
 
     json make(const std::string& created_at) {
-        json report = {{"status", "done"}, {"progress", 1.0}, {"error", nullptr}, {"created_at", created_at},
+        json report = {{"status", "done"},          {"progress", 1.0},
+                       {"error", nullptr},          {"created_at", created_at},
                        {"spec", m_spec.normalised}, {"spec_sha256", sha256_hex(m_spec.canonical_text())},
-                       {"device", device()}, {"provenance", provenance()}};
+                       {"device", device()},        {"provenance", provenance()}};
         report["runs"] = json::array();
         for (const Run& run : m_comparison.runs) report["runs"].push_back(run_json(run));
         report["checks"] = checks(report["runs"]);
@@ -58,7 +59,7 @@ class ReportMaker {
         return report;
     }
 
- private:
+  private:
     json device() const {
         json device = gl::to_json(m_comparison.device);
         device["cpu"] = cpu_name();
@@ -83,7 +84,8 @@ class ReportMaker {
     }
 
     json run_json(const Run& run) const {
-        json reference = {{"method", run.reference.id}, {"parameters", run.reference.parameters},
+        json reference = {{"method", run.reference.id},
+                          {"parameters", run.reference.parameters},
                           {"images", pictures(run.reference_image, "reference-" + run.reference.id, true)},
                           {"residual", {{"depth_peeling", run.residual ? json(*run.residual) : json()}}}};
         if (!run.residual) reference["residual_reason"] = run.no_residual_reason;
@@ -97,10 +99,15 @@ class ReportMaker {
     }
 
     json result_json(const MethodResult& result, const std::string& name) const {
-        json object = {{"method", result.method.id}, {"label", result.method.label},
-                       {"parameters", result.method.parameters}, {"status", result.status},
+        json object = {{"method", result.method.id},
+                       {"label", result.method.label},
+                       {"parameters", result.method.parameters},
+                       {"status", result.status},
                        {"reason", result.reason.empty() ? json() : json(result.reason)},
-                       {"images", json::object()}, {"timing", nullptr}, {"metrics", nullptr}, {"memory_bytes", nullptr}};
+                       {"images", json::object()},
+                       {"timing", nullptr},
+                       {"metrics", nullptr},
+                       {"memory_bytes", nullptr}};
         if (result.status != "ok") return object;
         object["images"] = pictures(result.image, name, m_spec.image.format != PixelFormat::rgba8);
         object["timing"] = timing(result.samples);
@@ -108,7 +115,8 @@ class ReportMaker {
         if (result.metrics) {
             object["metrics"] = result.metrics->values;
             for (const auto& [key, picture] : result.metrics->pictures)
-                object["images"][key] = put(encode_png(picture), fmt::format("{}.{}.png", file_name(name), key), "image/png");
+                object["images"][key] =
+                    put(encode_png(picture), fmt::format("{}.{}.png", file_name(name), key), "image/png");
         } else {
             object["metrics_reason"] = result.no_metrics_reason;
         }
@@ -176,12 +184,20 @@ class ReportMaker {
             wall.push_back(sample.wall_ms);
             disagreeing += sample.valid ? 0 : 1;
         }
-        return {{"unit", "ms"}, {"clock", use_gpu_clock() ? "gpu" : "wall"}, {"samples", chosen},
-                {"median", summary.median}, {"mad", summary.mad}, {"min", summary.min}, {"p95", summary.p95},
+        return {{"unit", "ms"},
+                {"clock", use_gpu_clock() ? "gpu" : "wall"},
+                {"samples", chosen},
+                {"median", summary.median},
+                {"mad", summary.mad},
+                {"min", summary.min},
+                {"p95", summary.p95},
                 {"ci95", pair_json(summary.ci95)},
                 {"initialization", phase_median(samples, gl::Phase::initialization)},
-                {"finalization", phase_median(samples, gl::Phase::finalization)}, {"passes", passes(samples)},
-                {"gpu_samples", gpu}, {"wall_samples", wall}, {"disagreeing_samples", disagreeing}};
+                {"finalization", phase_median(samples, gl::Phase::finalization)},
+                {"passes", passes(samples)},
+                {"gpu_samples", gpu},
+                {"wall_samples", wall},
+                {"disagreeing_samples", disagreeing}};
     }
 
     /// Time of the baseline over time of the method, round by round; the rounds are what is paired.
@@ -222,12 +238,16 @@ class ReportMaker {
                     const json value = measured(result, check.metric);
                     // PSNR is null where the pictures are identical, which passes any minimum.
                     const bool identical = check.metric == "psnr" && value.is_null() && result["metrics"].is_object();
-                    const bool passed =
-                        identical ? check.max.is_null()
-                                  : value.is_number() && (check.min.is_null() || value >= check.min) &&
-                                        (check.max.is_null() || value <= check.max);
-                    all.push_back({{"metric", check.metric}, {"method", check.method}, {"at", run["point"]},
-                                   {"min", check.min}, {"max", check.max}, {"value", value}, {"passed", passed}});
+                    const bool passed = identical ? check.max.is_null()
+                                                  : value.is_number() && (check.min.is_null() || value >= check.min) &&
+                                                        (check.max.is_null() || value <= check.max);
+                    all.push_back({{"metric", check.metric},
+                                   {"method", check.method},
+                                   {"at", run["point"]},
+                                   {"min", check.min},
+                                   {"max", check.max},
+                                   {"value", value},
+                                   {"passed", passed}});
                 }
             }
         }
@@ -267,7 +287,8 @@ ContentSink::ContentSink(std::filesystem::path folder) : m_folder(std::move(fold
     std::filesystem::create_directories(m_folder);
 }
 
-std::string ContentSink::put(const std::string& sha256, const std::string& bytes, const std::string&, const std::string&) {
+std::string ContentSink::put(const std::string& sha256, const std::string& bytes, const std::string&,
+                             const std::string&) {
     write_file(m_folder / sha256, bytes);
     return "/api/v1/blobs/" + sha256;
 }
@@ -289,7 +310,8 @@ std::string utc_now() {
     const auto now = std::chrono::system_clock::now();
     const auto milliseconds =
         std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
-    return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(now)), milliseconds);
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(now)),
+                       milliseconds);
 }
 
 }  // namespace sheer

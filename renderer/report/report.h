@@ -10,7 +10,7 @@ namespace sheer {
 
 /// Takes the encoded pictures of a report.
 class BlobSink {
- public:
+  public:
     virtual ~BlobSink() = default;
     /// Keeps `bytes` and returns the URL that the report gives for them. `name` is unique in the report.
     virtual std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
@@ -19,23 +19,23 @@ class BlobSink {
 
 /// Pictures as files with readable names below a folder: `sheer compare --out`.
 class FolderSink : public BlobSink {
- public:
+  public:
     explicit FolderSink(std::filesystem::path folder);
     std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
                     const std::string& media_type) override;
 
- private:
+  private:
     std::filesystem::path m_folder;
 };
 
 /// Pictures as files named by their SHA-256, with the URL that the service serves them at.
 class ContentSink : public BlobSink {
- public:
+  public:
     explicit ContentSink(std::filesystem::path folder);
     std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
                     const std::string& media_type) override;
 
- private:
+  private:
     std::filesystem::path m_folder;
 };
 

@@ -10,7 +10,7 @@ struct Summary {
     double median = 0;
     double mad = 0;  ///< median absolute deviation from the median, unscaled
     double min = 0;
-    double p95 = 0;  ///< nearest-rank 95th percentile
+    double p95 = 0;                                 ///< nearest-rank 95th percentile
     std::optional<std::pair<double, double>> ci95;  ///< of the median; none where there are too few samples
 };
 

@@ -78,14 +78,16 @@ std::string report_table(const json& report) {
         for (const json& result : run["results"]) rows.push_back(row(result));
         text += aligned(rows);
         const json& residual = run["reference"]["residual"]["depth_peeling"];
-        text += fmt::format("\nd: {} minus method, in 8-bit levels. Speedup over {}.", run["reference"]["method"].get<std::string>(),
-                            report["spec"]["baseline"].get<std::string>());
+        text +=
+            fmt::format("\nd: {} minus method, in 8-bit levels. Speedup over {}.",
+                        run["reference"]["method"].get<std::string>(), report["spec"]["baseline"].get<std::string>());
         if (residual.is_number()) text += fmt::format(" Residual to depth peeling {:.2g}.", residual.get<double>());
         text += "\n";
     }
     for (const json& check : report["checks"]) {
-        text += fmt::format("{}  {} of {} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",
-                            check["metric"].get<std::string>(), check["method"].get<std::string>(), check["value"].dump());
+        text +=
+            fmt::format("{}  {} of {} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",
+                        check["metric"].get<std::string>(), check["method"].get<std::string>(), check["value"].dump());
         if (!check["min"].is_null()) text += fmt::format(", at least {}", check["min"].dump());
         if (!check["max"].is_null()) text += fmt::format(", at most {}", check["max"].dump());
         text += "\n";

@@ -6,7 +6,7 @@ namespace sheer {
 /// Seeded random numbers that are the same on every platform and standard library: SplitMix64 (Steele, Lea and Flood,
 /// "Fast splittable pseudorandom number generators", OOPSLA 2014).
 class Random {
- public:
+  public:
     explicit Random(std::uint64_t seed) : m_state(seed) {}
 
     std::uint64_t next() {
@@ -22,7 +22,7 @@ class Random {
     /// In [0, count); the bias of the remainder is below 2^-32 for counts below 2^32.
     std::uint64_t below(std::uint64_t count) { return next() % count; }
 
- private:
+  private:
     std::uint64_t m_state;
 };
 

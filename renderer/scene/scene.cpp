@@ -19,8 +19,8 @@ struct Shading {
     int reads;  // texture reads of a fragment, from the textures in turn
     bool math;
 };
-constexpr Shading shadings[] = {{"constant", 0, false},     {"1-texture", 1, false},
-                                {"4-textures", 4, false},   {"4-textures-math", 4, true},
+constexpr Shading shadings[] = {{"constant", 0, false},      {"1-texture", 1, false},
+                                {"4-textures", 4, false},    {"4-textures-math", 4, true},
                                 {"4x4-textures", 16, false}, {"4x4-textures-math", 16, true}};
 
 const Shading& find_shading(const std::string& name) {
@@ -29,7 +29,9 @@ const Shading& find_shading(const std::string& name) {
     throw std::invalid_argument("no shading is called " + name);
 }
 
-std::string define(const std::string& name, int value) { return "#define " + name + " " + std::to_string(value) + "\n"; }
+std::string define(const std::string& name, int value) {
+    return "#define " + name + " " + std::to_string(value) + "\n";
+}
 
 /// Far to near; of equal depths the earlier submitted first.
 void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry) {
@@ -47,8 +49,9 @@ Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::
     m_shading_prolog = define("TEXTURED", shading.reads > 0) + define("MATH", shading.math);
     if (shading.reads > 0) make_textures(parameters.at("texture"));
 
-    m_vertices = gl::make_buffer(gl, "scene vertices", static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(Vertex)),
-                                 geometry.vertices.data());
+    m_vertices =
+        gl::make_buffer(gl, "scene vertices", static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(Vertex)),
+                        geometry.vertices.data());
     m_vertex_array = gl::make_vertex_array(gl, "scene vertex array");
     const GLuint array = m_vertex_array.id();
     gl.VertexArrayVertexBuffer(array, 0, m_vertices.id(), 0, sizeof(Vertex));
@@ -86,7 +89,8 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
     }
     list.first_index.push_back(indices.size());
     if (indices.empty()) indices.push_back(0);  // a GL buffer cannot be empty
-    list.indices = gl::make_buffer(m_gl, label, static_cast<GLsizeiptr>(indices.size() * sizeof(indices[0])), indices.data());
+    list.indices =
+        gl::make_buffer(m_gl, label, static_cast<GLsizeiptr>(indices.size() * sizeof(indices[0])), indices.data());
     return list;
 }
 
@@ -95,7 +99,8 @@ void Scene::make_textures(const nlohmann::json& texture) {
     m_gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
     m_textures = gl::Texture(m_gl, id, "scene textures");
     for (int variant = 0; variant < texture_count; ++variant) {
-        const auto levels = make_texture(texture.at("image").get<std::string>(), texture.at("size").get<int>(), variant);
+        const auto levels =
+            make_texture(texture.at("image").get<std::string>(), texture.at("size").get<int>(), variant);
         const auto level_count = static_cast<GLsizei>(levels.size());
         if (variant == 0)
             m_gl.TextureStorage3D(id, level_count, GL_RGBA8, levels[0].size_px, levels[0].size_px, texture_count);
@@ -111,7 +116,8 @@ void Scene::make_textures(const nlohmann::json& texture) {
     m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_REPEAT);
 }
 
-gl::Program Scene::make_program(std::string_view label, std::string_view method_source, const std::string& prolog) const {
+gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
+                                const std::string& prolog) const {
     const std::string fragment = glsl_version + prolog + m_shading_prolog +
                                  std::string(gl::shader_file("scenes/real_work.glsl")) + std::string(method_source);
     return gl::Program(m_gl, label, gl::shader_file("scenes/scene.vert.glsl"), fragment);

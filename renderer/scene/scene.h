@@ -13,7 +13,7 @@ enum class Order { submission, near_to_far, far_to_near };
 ///
 /// In every order, primitives of equal depth stand as if the later submitted one were nearer.
 class Scene {
- public:
+  public:
     /// `parameters` are the normalised ones of the spec, for shading and texture.
     Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters);
 
@@ -33,7 +33,7 @@ class Scene {
     /// `count` primitives from the `first` in this order.
     void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) const;
 
- private:
+  private:
     struct DrawList {
         gl::Buffer indices;
         std::vector<std::size_t> first_index;  ///< of each primitive, and one past the last

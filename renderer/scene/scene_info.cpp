@@ -14,14 +14,15 @@ const std::vector<SceneInfo>& all_scenes() {
     return scenes;
 }
 
-const SceneInfo* find_scene(const std::string& id) { return find_by_id(all_scenes(), id); }
+const SceneInfo* find_scene(const std::string& id) {
+    return find_by_id(all_scenes(), id);
+}
 
 std::vector<Param> SceneInfo::all_parameters() const {
     std::vector<Param> all = parameters;
-    all.push_back(Param::choice("shading", "what the fragment shader does: textures read and positions bent",
-                                default_shading,
-                                {"constant", "1-texture", "4-textures", "4-textures-math", "4x4-textures",
-                                 "4x4-textures-math"}));
+    all.push_back(
+        Param::choice("shading", "what the fragment shader does: textures read and positions bent", default_shading,
+                      {"constant", "1-texture", "4-textures", "4-textures-math", "4x4-textures", "4x4-textures-math"}));
     all.push_back(Param::object("texture", "the four textures that the shading reads",
                                 {Param::choice("image", "what they show", "leaf", {"leaf", "smoke"}),
                                  Param::integer("size", "width and height", "px", 1024, 1, 4096)}));

@@ -12,9 +12,9 @@
 namespace sheer {
 
 struct Vertex {
-    glm::vec3 position;   ///< before view_projection; with the identity: x right, y up, -1..1, depth 0 (near) to 1
-    glm::vec2 uv;         ///< 0..1, v down
-    glm::vec4 tint;       ///< straight colour and alpha, 0..1
+    glm::vec3 position;       ///< before view_projection; with the identity: x right, y up, -1..1, depth 0 (near) to 1
+    glm::vec2 uv;             ///< 0..1, v down
+    glm::vec4 tint;           ///< straight colour and alpha, 0..1
     std::uint32_t primitive;  ///< index into Geometry::primitives
 };
 
@@ -45,8 +45,8 @@ struct SceneInfo {
     std::string id;
     std::string name;
     std::string summary;
-    std::string source;              ///< paper or "Sheer"
-    std::vector<Param> parameters;   ///< without those that every scene has, see all_parameters()
+    std::string source;             ///< paper or "Sheer"
+    std::vector<Param> parameters;  ///< without those that every scene has, see all_parameters()
     std::string default_shading = "constant";
     std::function<Geometry(const nlohmann::json& scene, const ImageSpec& image)> build;
 

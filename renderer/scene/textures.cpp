@@ -22,7 +22,7 @@ float smooth_step(float low, float high, float x) {
 
 /// Value noise on a lattice that repeats every `period` cells, 0..1.
 class Noise {
- public:
+  public:
     explicit Noise(std::uint64_t seed) {
         Random random(seed);
         for (float& value : m_lattice) value = static_cast<float>(random.unit());
@@ -49,11 +49,12 @@ class Noise {
         return sum / total;
     }
 
- private:
+  private:
     static constexpr int lattice_size = 256;
     float lattice(int x, int y, int period) const {
         const int wrapped_x = ((x % period) + period) % period, wrapped_y = ((y % period) + period) % period;
-        return m_lattice[static_cast<std::size_t>((wrapped_y * 73 + wrapped_x * 151 + wrapped_x * wrapped_y) % lattice_size)];
+        return m_lattice[static_cast<std::size_t>((wrapped_y * 73 + wrapped_x * 151 + wrapped_x * wrapped_y) %
+                                                  lattice_size)];
     }
     float m_lattice[lattice_size];
 };
@@ -80,7 +81,8 @@ struct Leaf {
 
         const float ribs = along * 9 - distance / half_width * 1.5f;
         const float to_rib = std::abs(ribs - std::floor(ribs) - 0.5f);
-        const float vein = std::max(1 - distance / (0.05f * half_width + 1e-6f), 0.45f * smooth_step(0.42f, 0.5f, to_rib));
+        const float vein =
+            std::max(1 - distance / (0.05f * half_width + 1e-6f), 0.45f * smooth_step(0.42f, 0.5f, to_rib));
         const float mottle = 0.75f + 0.5f * noise.fractal(p, 16, 3);
         const float shade = mottle * (1.05f - 0.45f * distance / (rim + 1e-6f));
         return vec4(glm::min(color * shade + vec3(0.28f, 0.30f, 0.12f) * std::max(vein, 0.0f), vec3(1)), alpha);
@@ -98,7 +100,8 @@ std::vector<Leaf> make_leaves(int variant) {
         if (i % 2 == 1) direction = -direction;
         if (i % 4 >= 2) direction = vec2(-direction.y, direction.x);
         const auto length = static_cast<float>(random.between(0.45, 0.75));
-        const vec2 middle(static_cast<float>(random.between(0.22, 0.78)), static_cast<float>(random.between(0.22, 0.78)));
+        const vec2 middle(static_cast<float>(random.between(0.22, 0.78)),
+                          static_cast<float>(random.between(0.22, 0.78)));
         const auto tone = static_cast<float>(random.between(0.75, 1.2));
         leaves.push_back({middle - direction * (length / 2), direction, length,
                           length * static_cast<float>(random.between(0.17, 0.26)),

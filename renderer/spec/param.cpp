@@ -16,15 +16,24 @@ constexpr std::size_t max_quoted_bytes = 80;
 
 std::string kind_name(Param::Kind kind) {
     switch (kind) {
-        case Param::Kind::number: return "number";
-        case Param::Kind::integer: return "integer";
-        case Param::Kind::boolean: return "boolean";
-        case Param::Kind::choice: return "choice";
-        case Param::Kind::text: return "text";
-        case Param::Kind::numbers: return "numbers";
-        case Param::Kind::object: return "object";
-        case Param::Kind::list: return "list";
-        case Param::Kind::any: return "any";
+        case Param::Kind::number:
+            return "number";
+        case Param::Kind::integer:
+            return "integer";
+        case Param::Kind::boolean:
+            return "boolean";
+        case Param::Kind::choice:
+            return "choice";
+        case Param::Kind::text:
+            return "text";
+        case Param::Kind::numbers:
+            return "numbers";
+        case Param::Kind::object:
+            return "object";
+        case Param::Kind::list:
+            return "list";
+        case Param::Kind::any:
+            return "any";
     }
     throw std::logic_error("unknown kind of parameter");
 }
@@ -42,7 +51,8 @@ bool in_range(const Param& param, double value) {
 
 std::string range_text(const Param& param) {
     const bool low = std::isfinite(param.min), high = std::isfinite(param.max);
-    if (low && high) return fmt::format("from {} to {}{}", param.min, param.max, param.exclusive ? ", both excluded" : "");
+    if (low && high)
+        return fmt::format("from {} to {}{}", param.min, param.max, param.exclusive ? ", both excluded" : "");
     if (low) return fmt::format("{} {}", param.exclusive ? "over" : "at least", param.min);
     if (high) return fmt::format("{} {}", param.exclusive ? "under" : "at most", param.max);
     return "finite";
@@ -50,26 +60,35 @@ std::string range_text(const Param& param) {
 
 /// Reads one value; on an error it adds one and gives the default.
 class ValueReader {
- public:
+  public:
     ValueReader(const Param& param, const std::string& pointer, std::vector<FieldError>& errors)
         : m_param(param), m_pointer(pointer), m_errors(errors) {}
 
     json read(const json& value) {
         switch (m_param.kind) {
-            case Param::Kind::number: return number(value);
-            case Param::Kind::integer: return integer(value);
-            case Param::Kind::boolean: return value.is_boolean() ? value : wrong("must be true or false", value);
-            case Param::Kind::choice: return choice(value);
-            case Param::Kind::text: return text(value);
-            case Param::Kind::numbers: return numbers(value);
-            case Param::Kind::object: return object(value);
-            case Param::Kind::list: return list(value);
-            case Param::Kind::any: return value;
+            case Param::Kind::number:
+                return number(value);
+            case Param::Kind::integer:
+                return integer(value);
+            case Param::Kind::boolean:
+                return value.is_boolean() ? value : wrong("must be true or false", value);
+            case Param::Kind::choice:
+                return choice(value);
+            case Param::Kind::text:
+                return text(value);
+            case Param::Kind::numbers:
+                return numbers(value);
+            case Param::Kind::object:
+                return object(value);
+            case Param::Kind::list:
+                return list(value);
+            case Param::Kind::any:
+                return value;
         }
         return value;
     }
 
- private:
+  private:
     json wrong(const std::string& what, const json& value) {
         m_errors.push_back({m_pointer, fmt::format("{}, not {}", what, quoted(value))});
         return m_param.default_value;
@@ -164,22 +183,35 @@ bool may_be_absent(const Param& param) {
 json value_schema(const Param& param) {
     json schema = json::object();
     switch (param.kind) {
-        case Param::Kind::number: schema["type"] = "number"; break;
-        case Param::Kind::integer: schema["type"] = "integer"; break;
-        case Param::Kind::boolean: schema["type"] = "boolean"; break;
-        case Param::Kind::choice: schema["enum"] = param.choices; break;
+        case Param::Kind::number:
+            schema["type"] = "number";
+            break;
+        case Param::Kind::integer:
+            schema["type"] = "integer";
+            break;
+        case Param::Kind::boolean:
+            schema["type"] = "boolean";
+            break;
+        case Param::Kind::choice:
+            schema["enum"] = param.choices;
+            break;
         case Param::Kind::text:
             schema = {{"type", "string"}, {"minLength", param.min_length}, {"maxLength", param.max_length}};
             break;
         case Param::Kind::numbers:
             schema = {{"type", "array"}, {"minItems", param.max_length}, {"maxItems", param.max_length}};
             break;
-        case Param::Kind::object: schema = schema_of(param.fields); break;
+        case Param::Kind::object:
+            schema = schema_of(param.fields);
+            break;
         case Param::Kind::list:
-            schema = {{"type", "array"}, {"minItems", param.min_length}, {"maxItems", param.max_length},
+            schema = {{"type", "array"},
+                      {"minItems", param.min_length},
+                      {"maxItems", param.max_length},
                       {"items", schema_of(param.fields)}};
             break;
-        case Param::Kind::any: break;
+        case Param::Kind::any:
+            break;
     }
     json range = json::object();
     if (std::isfinite(param.min)) range[param.exclusive ? "exclusiveMinimum" : "minimum"] = param.min;
@@ -282,8 +314,8 @@ json read_fields(const json& object, const std::string& pointer, const std::vect
         if (known) continue;
         std::vector<std::string> names;
         for (const Param& param : fields) names.push_back(param.name);
-        errors.push_back(
-            {pointer + "/" + pointer_token(key), fmt::format("is not a known field; known are {}", fmt::join(names, ", "))});
+        errors.push_back({pointer + "/" + pointer_token(key),
+                          fmt::format("is not a known field; known are {}", fmt::join(names, ", "))});
     }
     return result;
 }
@@ -301,7 +333,7 @@ json to_json(const std::vector<Param>& fields) {
     json all = json::array();
     for (const Param& param : fields) {
         json one = {{"name", param.name}, {"kind", kind_name(param.kind)}, {"summary", param.summary},
-                    {"unit", param.unit}, {"default", default_of(param)}, {"required", !may_be_absent(param)}};
+                    {"unit", param.unit}, {"default", default_of(param)},  {"required", !may_be_absent(param)}};
         if (std::isfinite(param.min)) one["min"] = param.min;
         if (std::isfinite(param.max)) one["max"] = param.max;
         if (param.exclusive) one["exclusive"] = true;

@@ -16,18 +16,19 @@ struct Param {
     std::string name;
     Kind kind = Kind::number;
     std::string summary;
-    std::string unit;                       ///< "" where it has none
+    std::string unit;                        ///< "" where it has none
     nlohmann::json default_value = nullptr;  ///< null: the field must be given, unless `optional`
-    bool optional = false;                  ///< may be absent, then it is null
+    bool optional = false;                   ///< may be absent, then it is null
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    bool exclusive = false;           ///< min and max themselves are not allowed
+    bool exclusive = false;            ///< min and max themselves are not allowed
     std::vector<std::string> choices;  ///< of a choice
     std::size_t min_length = 0;        ///< of text (bytes), numbers and lists
     std::size_t max_length = 0;
     std::vector<Param> fields;  ///< of an object, or of the objects in a list
 
-    static Param number(std::string name, std::string summary, std::string unit, double fallback, double min, double max);
+    static Param number(std::string name, std::string summary, std::string unit, double fallback, double min,
+                        double max);
     static Param integer(std::string name, std::string summary, std::string unit, long long fallback, double min,
                          double max);
     static Param boolean(std::string name, std::string summary, bool fallback);

@@ -51,10 +51,11 @@ std::vector<Param> spec_fields() {
     return {
         Param::text("title", "shown with the report", "", max_text_bytes),
         any("tags", "names and texts to find the report by", json::object()),
-        Param::object("image", "the picture that is rendered",
-                      {Param::integer("width", "", "px", 512, 1, 4096), Param::integer("height", "", "px", 512, 1, 4096),
-                       Param::numbers("background", "red, green, blue behind everything", "", {0, 0, 0}, 0, 1),
-                       Param::choice("format", "what the methods blend into", "rgba8", {"rgba8", "rgba16f", "rgba32f"})}),
+        Param::object(
+            "image", "the picture that is rendered",
+            {Param::integer("width", "", "px", 512, 1, 4096), Param::integer("height", "", "px", 512, 1, 4096),
+             Param::numbers("background", "red, green, blue behind everything", "", {0, 0, 0}, 0, 1),
+             Param::choice("format", "what the methods blend into", "rgba8", {"rgba8", "rgba16f", "rgba32f"})}),
         any("scene", "an object with the type of the scene and its parameters", nullptr),
         any("methods", "an array of method ids, or of objects with id, label and parameters", nullptr),
         any("reference", "the method that the others are held against for differences", "exact"),
@@ -81,7 +82,7 @@ std::vector<std::string> metric_names() {
 }
 
 class SpecReader {
- public:
+  public:
     Spec read(const json& document) {
         if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "a spec must be a JSON object"}});
         Spec spec;
@@ -105,7 +106,7 @@ class SpecReader {
         return spec;
     }
 
- private:
+  private:
     void error(const std::string& pointer, const std::string& detail) { m_errors.push_back({pointer, detail}); }
 
     void check_tags(const json& tags) {
@@ -115,7 +116,8 @@ class SpecReader {
         }
         for (const auto& [name, value] : tags.items()) {
             if (!value.is_string() || value.get_ref<const std::string&>().size() > max_text_bytes)
-                error("/tags/" + pointer_token(name), fmt::format("must be a text of at most {} bytes", max_text_bytes));
+                error("/tags/" + pointer_token(name),
+                      fmt::format("must be a text of at most {} bytes", max_text_bytes));
         }
     }
 
@@ -154,8 +156,8 @@ class SpecReader {
         }
         const MethodInfo* info = find_method(parameters["id"]);
         if (info == nullptr) {
-            error(id_pointer, fmt::format("there is no method \"{}\"; known are {}", parameters["id"].get<std::string>(),
-                                          joined_ids(all_methods())));
+            error(id_pointer, fmt::format("there is no method \"{}\"; known are {}",
+                                          parameters["id"].get<std::string>(), joined_ids(all_methods())));
             return {};
         }
         MethodSpec method{info->id, read_label(parameters, pointer), {}};
@@ -201,13 +203,15 @@ class SpecReader {
         for (std::size_t i = 0; i < methods.size(); ++i) {
             if (methods[i].label.empty()) continue;
             if (is_taken(methods[i].label))
-                error(fmt::format("/methods/{}/label", i), fmt::format("\"{}\" is taken by another method", methods[i].label));
+                error(fmt::format("/methods/{}/label", i),
+                      fmt::format("\"{}\" is taken by another method", methods[i].label));
             taken.push_back(methods[i].label);
         }
         for (MethodSpec& method : methods) {
             if (!method.label.empty() || method.id.empty()) continue;
             method.label = method.id;
-            for (int number = 2; is_taken(method.label); ++number) method.label = fmt::format("{} {}", method.id, number);
+            for (int number = 2; is_taken(method.label); ++number)
+                method.label = fmt::format("{} {}", method.id, number);
             taken.push_back(method.label);
         }
     }
@@ -242,8 +246,7 @@ class SpecReader {
             if (!check["metric"].is_string() || !check["method"].is_string()) continue;
             if (std::ranges::find(names, check["metric"].get<std::string>()) == names.end())
                 error(pointer + "/metric", fmt::format("must be one of {}", fmt::join(names, ", ")));
-            if (check["min"].is_null() && check["max"].is_null())
-                error(pointer, "needs a min or a max");
+            if (check["min"].is_null() && check["max"].is_null()) error(pointer, "needs a min or a max");
             check["method"] = resolve_method(spec, check["method"], pointer + "/method");
             spec.checks.push_back({check["metric"], check["method"], check["min"], check["max"]});
         }
@@ -254,7 +257,9 @@ class SpecReader {
 
 }  // namespace
 
-Spec parse_spec(const json& document) { return SpecReader().read(document); }
+Spec parse_spec(const json& document) {
+    return SpecReader().read(document);
+}
 
 Spec parse_spec_text(const std::string& text) {
     try {
@@ -293,19 +298,26 @@ json spec_schema() {
     properties["tags"]["additionalProperties"] = {{"type", "string"}, {"maxLength", max_text_bytes}};
     properties["scene"]["oneOf"] = scenes;
     properties["reference"]["oneOf"] = methods;
-    properties["methods"].update({{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods},
-                                  {"items", {{"oneOf", methods}}}});
+    properties["methods"].update(
+        {{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods}, {"items", {{"oneOf", methods}}}});
     return schema;
 }
 
 json describe_methods() {
     json all = json::array();
     for (const MethodInfo& method : all_methods()) {
-        all.push_back({{"id", method.id}, {"name", method.name}, {"kind", method.kind}, {"summary", method.summary},
-                       {"paper", method.paper}, {"good_at", method.good_at}, {"bad_at", method.bad_at},
-                       {"memory", method.memory}, {"needs_sorting", method.needs_sorting},
-                       {"parameters", to_json(method.parameters)},
-                       {"no_metrics_reason", method.no_metrics_reason.empty() ? json() : json(method.no_metrics_reason)}});
+        all.push_back(
+            {{"id", method.id},
+             {"name", method.name},
+             {"kind", method.kind},
+             {"summary", method.summary},
+             {"paper", method.paper},
+             {"good_at", method.good_at},
+             {"bad_at", method.bad_at},
+             {"memory", method.memory},
+             {"needs_sorting", method.needs_sorting},
+             {"parameters", to_json(method.parameters)},
+             {"no_metrics_reason", method.no_metrics_reason.empty() ? json() : json(method.no_metrics_reason)}});
     }
     return all;
 }
@@ -313,7 +325,10 @@ json describe_methods() {
 json describe_scenes() {
     json all = json::array();
     for (const SceneInfo& scene : all_scenes()) {
-        all.push_back({{"id", scene.id}, {"name", scene.name}, {"summary", scene.summary}, {"source", scene.source},
+        all.push_back({{"id", scene.id},
+                       {"name", scene.name},
+                       {"summary", scene.summary},
+                       {"source", scene.source},
                        {"parameters", to_json(scene.all_parameters())}});
     }
     return all;
@@ -324,9 +339,14 @@ json describe_metrics() {
     for (const MetricInfo& metric : all_metrics()) {
         json fields = json::array();
         for (const MetricField& field : metric.fields)
-            fields.push_back({{"name", field.name}, {"unit", field.unit}, {"range", field.range}, {"summary", field.summary}});
-        all.push_back({{"id", metric.id}, {"name", metric.name}, {"summary", metric.summary}, {"source", metric.source},
-                       {"picture", metric.picture}, {"fields", fields}});
+            fields.push_back(
+                {{"name", field.name}, {"unit", field.unit}, {"range", field.range}, {"summary", field.summary}});
+        all.push_back({{"id", metric.id},
+                       {"name", metric.name},
+                       {"summary", metric.summary},
+                       {"source", metric.source},
+                       {"picture", metric.picture},
+                       {"fields", fields}});
     }
     return all;
 }

@@ -54,7 +54,8 @@ json describe_devices() {
 
 std::string device_line(const json& device) {
     const auto name = device["name"].get<std::string>();
-    if (!device["error"].is_null()) return fmt::format("{:<10} not usable: {}\n", name, device["error"].get<std::string>());
+    if (!device["error"].is_null())
+        return fmt::format("{:<10} not usable: {}\n", name, device["error"].get<std::string>());
     return fmt::format("{:<10} {}, OpenGL {}{}\n", name, device["renderer"].get<std::string>(),
                        device["gl_version"].get<std::string>(), device["software"].get<bool>() ? ", software" : "");
 }
@@ -84,10 +85,12 @@ void add_list(CLI::App& app, int& exit_code, const std::string& name, const std:
 
 void add_catalog(CLI::App& app, int& exit_code) {
     add_list(app, exit_code, "methods", "The methods and their parameters", describe_methods, [](const json& info) {
-        return entry(info, {{"paper", "paper"}, {"good at", "good_at"}, {"bad at", "bad_at"}, {"memory", "memory"}}) + "\n";
+        return entry(info, {{"paper", "paper"}, {"good at", "good_at"}, {"bad at", "bad_at"}, {"memory", "memory"}}) +
+               "\n";
     });
-    add_list(app, exit_code, "scenes", "The scenes and their parameters", describe_scenes,
-             [](const json& info) { return entry(info, {{"source", "source"}}) + "\n"; });
+    add_list(app, exit_code, "scenes", "The scenes and their parameters", describe_scenes, [](const json& info) {
+        return entry(info, {{"source", "source"}}) + "\n";
+    });
     add_list(app, exit_code, "devices", "What can be rendered on here", describe_devices, device_line);
 }
 

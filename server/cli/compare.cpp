@@ -20,7 +20,7 @@ struct Options {
 
 /// A bar on a terminal's stderr, from the second second on.
 class ProgressBar {
- public:
+  public:
     ~ProgressBar() {
         if (m_shown) fmt::print(stderr, "\r\033[K");
     }
@@ -28,12 +28,13 @@ class ProgressBar {
         if (!m_terminal || Clock::now() - m_begin < std::chrono::seconds(1)) return;
         constexpr int width = 30;
         const int filled = static_cast<int>(fraction * width);
-        fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100 * fraction, stage);
+        fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100 * fraction,
+                   stage);
         std::fflush(stderr);
         m_shown = true;
     }
 
- private:
+  private:
     using Clock = std::chrono::steady_clock;
     Clock::time_point m_begin = Clock::now();
     bool m_terminal = isatty(STDERR_FILENO) == 1;

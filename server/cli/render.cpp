@@ -60,7 +60,8 @@ int run(const Options& options) {
         return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
     } catch (const SpecError& error) {
         json errors = json::array();
-        for (const FieldError& field : error.errors()) errors.push_back({{"pointer", field.pointer}, {"detail", field.detail}});
+        for (const FieldError& field : error.errors())
+            errors.push_back({{"pointer", field.pointer}, {"detail", field.detail}});
         return fail("spec", error, exit_bad_spec, errors);
     } catch (const Unsupported& error) {
         return fail("unsupported", error, exit_render_failed);

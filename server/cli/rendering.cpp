@@ -16,7 +16,8 @@ void add_context_options(CLI::App& command, gl::ContextRequest& request) {
         ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
         ->capture_default_str();
     command.add_option("--device", request.device, "Index of a device, or a part of its name (see sheer devices)");
-    command.add_option("--without-workaround", request.disabled_workarounds, "Name of a driver workaround to switch off");
+    command.add_option("--without-workaround", request.disabled_workarounds,
+                       "Name of a driver workaround to switch off");
 }
 
 Spec load_spec(const std::string& path) {

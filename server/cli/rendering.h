@@ -20,7 +20,7 @@ int guarded(const std::function<int()>& action);
 /// Writes a report whole: `fill` gets a temporary folder beside `folder`, which then takes the place of `folder`.
 /// Throws std::runtime_error, before anything is done, if `folder` holds something that is not a report.
 class ReportFolder {
- public:
+  public:
     explicit ReportFolder(std::filesystem::path folder);
     ~ReportFolder();
     ReportFolder(const ReportFolder&) = delete;
@@ -30,7 +30,7 @@ class ReportFolder {
     /// Throws std::filesystem::filesystem_error.
     void commit();
 
- private:
+  private:
     std::filesystem::path m_folder, m_partial;
 };
 

@@ -2,5 +2,6 @@ layout(location = 0) out vec4 o_color;  // blend SRC_ALPHA, ONE_MINUS_SRC_ALPHA;
 
 // Clamped here because float targets do not clamp what leaves the shader.
 void main() {
+    begin_fragment();
     o_color = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
 }

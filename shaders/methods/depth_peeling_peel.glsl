@@ -8,6 +8,7 @@ layout(location = 1) out float o_depth;
 layout(location = 2) out uint o_primitive;
 
 void main() {
+    begin_fragment();
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = gl_FragCoord.z;
     float last_depth = texelFetch(u_last_depth, pixel, 0).r;

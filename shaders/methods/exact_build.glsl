@@ -2,6 +2,7 @@ layout(early_fragment_tests) in;
 
 // No colour output: the colour mask is off.
 void main() {
+    begin_fragment();
     vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
     uint link = atomicAdd(node_count, 1u) + 1u;
     uint word = first_word(link);

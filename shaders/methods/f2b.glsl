@@ -2,6 +2,7 @@ layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC
 
 // The paper's section 2.2: clamp, premultiply, invert alpha.
 void main() {
+    begin_fragment();
     vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
     o_color = vec4(work.rgb * work.a, 1.0 - work.a);
 }

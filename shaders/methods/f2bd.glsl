@@ -31,6 +31,7 @@ float transmittance() {
 }
 
 void main() {
+    begin_fragment();
     if (transmittance() < u_threshold) {
         discard;
     } else {

@@ -1,5 +1,5 @@
 // The scene's shading, RealWork of the SCCG 2010 paper, section 2.2. Set before: TEXTURED (0 or 1), MATH (0 or 1: every
-// sampled position is bent by trigonometric functions).
+// sampled position is bent by trigonometric functions). A main() that uses real_work calls begin_fragment() first.
 
 in vec2 v_uv;
 in vec4 v_tint;
@@ -13,6 +13,15 @@ layout(binding = 0) uniform sampler2DArray u_textures;
 uniform int u_reads;
 
 const int texture_count = 4;
+
+// Level of detail of every read. It comes from derivatives, which mean nothing once neighbours have parted ways, so it is
+// worked out before any branch.
+float level_of_detail;
+
+void begin_fragment() {
+    vec2 dx = dFdx(v_uv), dy = dFdy(v_uv);
+    level_of_detail = 0.5 * log2(max(dot(dx, dx), dot(dy, dy))) + log2(float(textureSize(u_textures, 0).x));
+}
 
 vec2 position(vec2 uv, float number) {
 #if MATH
@@ -30,13 +39,15 @@ vec4 real_work(vec2 uv, vec4 tint) {
         int round = i / texture_count;
         vec2 offset = 0.06 * vec2(float(round & 1), float(round >> 1));
         float image = float((i + int(v_primitive)) % texture_count);
-        vec4 read = texture(u_textures, vec3(position(uv + offset, float(i)), image));
+        vec4 read = textureLod(u_textures, vec3(position(uv + offset, float(i)), image), level_of_detail);
         sum += read;
         if (i == 0) first = read;
     }
     return mix(sum / float(u_reads), first, 0.7) * tint;
 }
 #else
+void begin_fragment() {}
+
 vec4 real_work(vec2 uv, vec4 tint) {
     return tint;
 }

@@ -14,7 +14,7 @@ namespace {
 struct Distribution {
     std::string name;
     double min_size, max_size;  // fraction of the shorter side
-    double centre_spread;       // largest distance of the centre from the middle, fraction of a side; 0: anywhere visible
+    double centre_spread;  // largest distance of the centre from the middle, fraction of a side; 0: anywhere visible
     bool full = false;
 };
 
@@ -22,9 +22,9 @@ constexpr double small_size = 154.0 / 512, big_size = 307.0 / 512;
 
 const std::vector<Distribution>& distributions() {
     static const std::vector<Distribution> all = {
-        {"random", 26.0 / 512, 256.0 / 512, 0}, {"small", small_size, small_size, 0},
-        {"big", big_size, big_size, 0},         {"full", 1, 1, 0, true},
-        {"thick", small_size, small_size, 0.1}, {"medium", small_size, small_size, 0.2},
+        {"random", 26.0 / 512, 256.0 / 512, 0},  {"small", small_size, small_size, 0},
+        {"big", big_size, big_size, 0},          {"full", 1, 1, 0, true},
+        {"thick", small_size, small_size, 0.1},  {"medium", small_size, small_size, 0.2},
         {"scarce", small_size, small_size, 0.35}};
     return all;
 }
@@ -83,10 +83,11 @@ SceneInfo scene_quads() {
         .name = "Quads",
         .summary = "Textured quads parallel to the screen at random positions: the paper's measurement scene.",
         .source = "Vlcek, Havel, Herout, Front-to-Back Blending with Early Fragment Discarding, SCCG 2010, section 3",
-        .parameters = {Param::choice("distribution",
-                                     "sizes and places: random 26 to 256 px, small 154 px, big 307 px of 512, full the "
-                                     "whole window; thick, medium and scarce are small ones ever further from the centre",
-                                     "random", distribution_names()),
+        .parameters = {Param::choice(
+                           "distribution",
+                           "sizes and places: random 26 to 256 px, small 154 px, big 307 px of 512, full the "
+                           "whole window; thick, medium and scarce are small ones ever further from the centre",
+                           "random", distribution_names()),
                        Param::integer("count", "how many quads", "", 1024, 1, 65536),
                        Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0)},
         .default_shading = "4x4-textures",

@@ -1,0 +1,150 @@
+// What early discarding may and may not do to the picture, and when it synchronises.
+#include "renderer/frame/overdraw.h"
+#include "renderer/scene/random.h"
+#include "tests/render/render_test.h"
+
+namespace sheer::test {
+
+namespace {
+
+constexpr int size_px = 64;
+
+nlohmann::json quads(int count, const std::string& shading = "4x4-textures") {
+    return {{"type", "quads"}, {"count", count}, {"shading", shading}, {"texture", {{"image", "leaf"}, {"size", 64}}}};
+}
+
+/// Calls that a method made.
+struct Calls {
+    int barriers = 0, unbinds = 0;
+};
+
+/// The functions of a context with two of them counted. One at a time: GL functions carry no user data.
+class CountedFunctions {
+  public:
+    explicit CountedFunctions(const gl::Functions& real) : m_functions(real) {
+        s_real = &real;
+        s_calls = &m_calls;
+        m_functions.TextureBarrier = [] {
+            ++s_calls->barriers;
+            s_real->TextureBarrier();
+        };
+        m_functions.BindFramebuffer = [](GLenum target, GLuint id) {
+            if (id == 0) ++s_calls->unbinds;
+            s_real->BindFramebuffer(target, id);
+        };
+    }
+    const gl::Functions& functions() const { return m_functions; }
+    const Calls& calls() const { return m_calls; }
+
+  private:
+    static inline const gl::Functions* s_real = nullptr;
+    static inline Calls* s_calls = nullptr;
+    gl::Functions m_functions;
+    Calls m_calls;
+};
+
+Calls calls_of(const nlohmann::json& method, int count) {
+    const auto context = make_context("egl");
+    const Spec spec = make_spec(quads(count), nlohmann::json::array({method}), size_px);
+    Stage stage(*context, spec, PixelFormat::rgba8);
+    const CountedFunctions counted(context->gl());
+    const auto made = stage.make(spec.methods[0], &counted.functions());
+    stage.frame(*made);
+    return counted.calls();
+}
+
+TEST(Discarding, SynchronisesAfterTheClear) {
+    EXPECT_EQ(calls_of({{"id", "f2bd"}}, 10).barriers, 1);
+    EXPECT_EQ(calls_of({{"id", "f2bd"}}, 10).unbinds, 0);
+}
+
+TEST(Discarding, SynchronisesBetweenBatches) {
+    // 10 primitives in batches of 4: after the clear, and before the second and the third batch.
+    EXPECT_EQ(calls_of({{"id", "f2bd"}, {"batch", 4}}, 10).barriers, 3);
+    EXPECT_EQ(calls_of({{"id", "f2bd"}, {"batch", 10}}, 10).barriers, 1);
+    EXPECT_EQ(calls_of({{"id", "f2bx"}, {"batch", 1}}, 10).barriers, 10);
+}
+
+TEST(Discarding, RebindsOrDoesNothingWhenTold) {
+    const Calls rebind = calls_of({{"id", "f2bd"}, {"sync", "rebind"}, {"batch", 4}}, 10);
+    EXPECT_EQ(rebind.barriers, 0);
+    EXPECT_EQ(rebind.unbinds, 3);
+    const Calls none = calls_of({{"id", "f2bd"}, {"sync", "none"}, {"batch", 4}}, 10);
+    EXPECT_EQ(none.barriers + none.unbinds, 0);
+}
+
+/// What is left out at a pixel has less than the threshold of transmittance before it, and no colour is over 1.
+TEST(Discarding, ErrorIsAtMostTheThreshold) {
+    const auto context = make_context("egl");
+    for (const double threshold : {0.01, 0.1, 0.5}) {
+        const Spec spec =
+            make_spec(quads(200), {"f2b", {{"id", "f2bd"}, {"threshold", threshold}}}, size_px, "rgba32f");
+        Stage stage(*context, spec, PixelFormat::rgba32f);
+        const double difference = greatest_difference(stage.picture(spec.methods[0]), stage.picture(spec.methods[1]));
+        EXPECT_LE(difference, threshold + 1e-5) << threshold;
+        EXPECT_GT(difference, 0) << "nothing was discarded";
+    }
+}
+
+TEST(Discarding, EveryWayOfReadingTheAlphaGivesOnePicture) {
+    const auto context = make_context("egl");
+    const nlohmann::json ways = {{{"id", "f2bd"}},
+                                 {{"id", "f2bd"}, {"alpha_target", "separate"}},
+                                 {{"id", "f2bd"}, {"feedback", "framebuffer_fetch"}},
+                                 {{"id", "f2bd"}, {"feedback", "framebuffer_fetch"}, {"alpha_target", "separate"}},
+                                 {{"id", "f2bd"}, {"sync", "rebind"}, {"batch", 7}}};
+    const Spec spec = make_spec(quads(200), ways, size_px);
+    Stage stage(*context, spec, PixelFormat::rgba8);
+    const Image first = stage.picture(spec.methods[0]);
+    for (const MethodSpec& method : spec.methods)
+        EXPECT_EQ(greatest_difference(first, stage.picture(method)), 0) << method.parameters;
+}
+
+/// Without the extension the method is unsupported, with the extension's name as the reason.
+TEST(Discarding, FramebufferFetchNeedsItsExtension) {
+    const auto context = make_context("egl");
+    const Spec spec =
+        make_spec(quads(1), nlohmann::json::array({{{"id", "f2bd"}, {"feedback", "framebuffer_fetch"}}}), size_px);
+    Stage stage(*context, spec, PixelFormat::rgba8);
+    if (context->has_extension("GL_EXT_shader_framebuffer_fetch")) {
+        EXPECT_NO_THROW(stage.picture(spec.methods[0]));
+    } else {
+        EXPECT_THROW(stage.picture(spec.methods[0]), Unsupported);
+    }
+}
+
+/// F2BD must shade exactly the fragments that come before the transmittance falls under the threshold: three layers of
+/// alpha 0.5 leave 0.5, 0.25 and 0.125, so of five layers a threshold of 0.2 lets three through. Counted by the samples
+/// that pass; the clear is none and the composite adds one for each pixel.
+TEST(Discarding, ShadesWhatIsNeeded) {
+    const auto context = make_context("egl");
+    nlohmann::json layers = nlohmann::json::array();
+    for (int i = 0; i < 5; ++i)
+        layers.push_back({{"rect", {0, 0, 1, 1}}, {"depth", 0.1 + 0.1 * i}, {"color", {1, 1, 1}}, {"alpha", 0.5}});
+    const Spec spec =
+        make_spec({{"type", "layers"}, {"layers", layers}}, {"f2b", {{"id", "f2bd"}, {"threshold", 0.2}}}, 16);
+    Stage stage(*context, spec, PixelFormat::rgba8);
+    const gl::Functions& gl = context->gl();
+    const gl::Query query = gl::make_query(gl, "samples", GL_SAMPLES_PASSED);
+    const auto layers_shaded = [&](const MethodSpec& spec_of_method) {
+        const auto method = stage.make(spec_of_method);
+        stage.frame(*method);
+        gl.BeginQuery(GL_SAMPLES_PASSED, query.id());
+        stage.frame(*method);
+        gl.EndQuery(GL_SAMPLES_PASSED);
+        GLuint samples = 0;
+        gl.GetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &samples);
+        return static_cast<int>(samples / (16 * 16)) - 1;
+    };
+    EXPECT_EQ(layers_shaded(spec.methods[0]), 5);
+    // Hardware may read an older transmittance and shade more, never less.
+    if (context->device().software) {
+        EXPECT_EQ(layers_shaded(spec.methods[1]), 3);
+    } else {
+        EXPECT_GE(layers_shaded(spec.methods[1]), 3);
+    }
+}
+
+}  // namespace
+
+}  // namespace sheer::test

@@ -1,0 +1,182 @@
+// Every method against the closed form: `layers` scenes of random colours and alphas, opaque layers among them,
+// composited on the CPU in double precision.
+#include <cmath>
+
+#include "renderer/scene/random.h"
+#include "tests/render/compositor.h"
+#include "tests/render/render_test.h"
+
+namespace sheer::test {
+
+namespace {
+
+constexpr int size_px = 32;
+
+/// One row a method: what its picture must be, and how often its result is rounded to the target's format.
+struct MethodRow {
+    nlohmann::json method;
+    Compositor::Order order;
+    bool rounds_each_layer;  // blends in the target's format; false where it blends in floats and composites once
+};
+
+const std::vector<MethodRow>& rows() {
+    using Order = Compositor::Order;
+    static const std::vector<MethodRow> all = {
+        {{{"id", "b2f"}}, Order::by_depth, true},
+        {{{"id", "f2b"}}, Order::by_depth, true},
+        // At threshold 0 nothing is under the threshold, so nothing may be discarded.
+        {{{"id", "f2bd"}, {"threshold", 0}}, Order::by_depth, true},
+        {{{"id", "f2bd"}, {"threshold", 0}, {"alpha_target", "separate"}, {"label", "separate"}},
+         Order::by_depth,
+         true},
+        {{{"id", "f2bd"}, {"threshold", 0}, {"feedback", "framebuffer_fetch"}, {"batch", 3}, {"label", "fetch"}},
+         Order::by_depth,
+         true},
+        // The transmittance starts at 0, so neither layers nor background come through.
+        {{{"id", "f2bx"}}, Order::black, true},
+        {{{"id", "unsorted"}}, Order::by_submission, true},
+        {{{"id", "exact"}, {"form", "lists"}, {"label", "lists"}}, Order::by_depth, false},
+        {{{"id", "exact"}, {"form", "sorted"}, {"label", "sorted"}}, Order::by_depth, false},
+        {{{"id", "depth_peeling"}}, Order::by_depth, false},
+    };
+    return all;
+}
+
+/// The largest error that rounding may leave in a picture of `layers` blended layers.
+double tolerance(const MethodRow& row, PixelFormat format, std::size_t layers) {
+    const auto count = static_cast<double>(layers);
+    // Composited once: the opaque picture, what is laid over it and the product are each rounded, by half a level at
+    // most.
+    const double roundings = row.rounds_each_layer ? count : 1.5;
+    switch (format) {
+        case PixelFormat::rgba8:
+            return roundings / 255;  // 1/255 per blended layer
+        case PixelFormat::rgba16f:
+            return roundings * 0x1p-10;  // 11 significant bits, colour and transmittance
+        case PixelFormat::rgba32f:
+            return 1e-5 * count;
+    }
+    return 0;
+}
+
+nlohmann::json random_layers(std::size_t count, std::uint64_t seed) {
+    Random random(seed);
+    nlohmann::json layers = nlohmann::json::array();
+    for (std::size_t i = 0; i < count; ++i) {
+        // Edges on pixel corners, so that no pixel's middle lies on an edge.
+        const double x0 = static_cast<double>(random.below(20)) / size_px,
+                     y0 = static_cast<double>(random.below(20)) / size_px;
+        const double x1 = x0 + static_cast<double>(4 + random.below(20)) / size_px;
+        const double y1 = y0 + static_cast<double>(4 + random.below(20)) / size_px;
+        layers.push_back({{"rect", {x0, y0, x1, y1}},
+                          {"depth", random.between(0.05, 0.95)},
+                          {"color", {random.unit(), random.unit(), random.unit()}},
+                          {"alpha", random.unit()},
+                          {"opaque", i % 5 == 2}});
+    }
+    return {{"type", "layers"}, {"layers", layers}};
+}
+
+struct Case {
+    std::string context, format;
+    std::size_t layers;
+};
+
+void PrintTo(const Case& test_case, std::ostream* out) {
+    *out << test_case.context << ' ' << test_case.format << ' ' << test_case.layers;
+}
+
+class Layers : public testing::TestWithParam<Case> {};
+
+TEST_P(Layers, AgreeWithDoublePrecision) {
+    const Case& test_case = GetParam();
+    const auto context = make_context(test_case.context);
+    nlohmann::json methods = nlohmann::json::array();
+    for (const MethodRow& row : rows()) methods.push_back(row.method);
+    const Spec spec =
+        make_spec(random_layers(test_case.layers, 7 + test_case.layers), methods, size_px, test_case.format);
+    const Compositor compositor(spec.scene, size_px, {0.2, 0.4, 0.6});
+    Stage stage(*context, spec, spec.image.format);
+    for (std::size_t i = 0; i < rows().size(); ++i) {
+        const MethodRow& row = rows()[i];
+        const Image image = stage.picture(spec.methods[i]);
+        double greatest = 0;
+        for (int y = 0; y < size_px; ++y)
+            for (int x = 0; x < size_px; ++x)
+                for (int channel = 0; channel < 3; ++channel)
+                    greatest = std::max(greatest, std::abs(compositor.pixel(x, y, row.order)[channel] -
+                                                           double{image.pixel(x, y)[channel]}));
+        EXPECT_LE(greatest, tolerance(row, spec.image.format, test_case.layers)) << spec.methods[i].label;
+    }
+}
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    for (const std::string& context : contexts())
+        for (const std::string format : {"rgba8", "rgba16f", "rgba32f"})
+            for (const std::size_t layers : {1, 2, 4, 16}) all.push_back({context, format, layers});
+    return all;
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& test_case) {
+    const Case& values = test_case.param;
+    return values.context + "_" + values.format + "_" + std::to_string(values.layers);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Layers, testing::ValuesIn(cases()), case_name);
+
+TEST(Methods, EachDescribesItselfAndHasARow) {
+    for (const MethodInfo& method : all_methods()) {
+        SCOPED_TRACE(method.id);
+        EXPECT_FALSE(method.name.empty());
+        EXPECT_FALSE(method.kind.empty());
+        EXPECT_FALSE(method.summary.empty());
+        EXPECT_FALSE(method.paper.empty());
+        EXPECT_FALSE(method.good_at.empty());
+        EXPECT_FALSE(method.bad_at.empty());
+        EXPECT_FALSE(method.memory.empty());
+        EXPECT_TRUE(method.make);
+        for (const Param& param : method.parameters) EXPECT_FALSE(param.summary.empty()) << param.name;
+        EXPECT_TRUE(std::ranges::any_of(rows(), [&](const MethodRow& row) { return row.method["id"] == method.id; }))
+            << "add a row to tests/render/layers_test.cpp";
+    }
+}
+
+/// Two layers by hand: red 0.5 over green 0.25 over (0.2, 0.4, 0.6):
+/// green over the background (0.15, 0.55, 0.45), red over that (0.575, 0.275, 0.225).
+TEST(LayersByHand, Two) {
+    const nlohmann::json scene = {{"type", "layers"},
+                                  {"layers",
+                                   {{{"rect", {0, 0, 1, 1}}, {"depth", 0.2}, {"color", {1, 0, 0}}, {"alpha", 0.5}},
+                                    {{"rect", {0, 0, 1, 1}}, {"depth", 0.7}, {"color", {0, 1, 0}}, {"alpha", 0.25}}}}};
+    const auto context = make_context("egl");
+    const Spec spec = make_spec(scene, {"b2f", "f2b", "f2bd", "exact", "depth_peeling", "unsorted"}, 4, "rgba32f");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    for (const MethodSpec& method : spec.methods) {
+        const Image image = stage.picture(method);
+        // Submitted near first, so without sorting green lies over red: red (0.6, 0.2, 0.3), green (0.45, 0.4, 0.225).
+        const std::array<double, 3> expected =
+            method.id == "unsorted" ? std::array{0.45, 0.4, 0.225} : std::array{0.575, 0.275, 0.225};
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(image.pixel(2, 1)[channel], expected[channel], 1e-6) << method.id;
+    }
+}
+
+/// The rectangle's place: origin top left, y down.
+TEST(LayersByHand, OriginIsTopLeft) {
+    const nlohmann::json scene = {
+        {"type", "layers"},
+        {"layers", {{{"rect", {0, 0, 0.25, 0.5}}, {"depth", 0.5}, {"color", {1, 1, 1}}, {"alpha", 1}}}}};
+    for (const std::string& kind : contexts()) {
+        const auto context = make_context(kind);
+        const Spec spec = make_spec(scene, {"b2f"}, 4);
+        Stage stage(*context, spec, PixelFormat::rgba8);
+        const Image image = stage.picture(spec.methods[0]);
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 4; ++x) EXPECT_EQ(image.pixel(x, y)[0] == 1.0f, x < 1 && y < 2) << kind << x << y;
+    }
+}
+
+}  // namespace
+
+}  // namespace sheer::test

@@ -1,0 +1,111 @@
+// The two references against each other, and against themselves under hardship.
+#include "renderer/frame/overdraw.h"
+#include "tests/render/render_test.h"
+
+namespace sheer::test {
+
+namespace {
+
+nlohmann::json quads(int count) {
+    return {{"type", "quads"},
+            {"count", count},
+            {"shading", "4x4-textures-math"},
+            {"texture", {{"image", "smoke"}, {"size", 64}}}};
+}
+
+/// Float roundings of some dozens of layers, in different orders of the same sums.
+constexpr double float_tolerance = 2e-6;
+
+TEST(References, AgreeOnQuads) {
+    const auto context = make_context("egl");
+    const Spec spec = make_spec(
+        quads(120), {{{"id", "exact"}, {"form", "lists"}}, {{"id", "exact"}, {"form", "sorted"}}, "depth_peeling"}, 64,
+        "rgba32f");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    const Image lists = stage.picture(spec.methods[0]);
+    EXPECT_LE(greatest_difference(lists, stage.picture(spec.methods[1])), float_tolerance);
+    EXPECT_LE(greatest_difference(lists, stage.picture(spec.methods[2])), float_tolerance);
+}
+
+/// 1 MiB holds 37,449 fragments; this scene has over ten times as many.
+TEST(References, ListsInTilesGiveTheSamePicture) {
+    const auto context = make_context("egl");
+    const Spec spec = make_spec(quads(2000),
+                                {{{"id", "exact"}, {"form", "lists"}, {"memory_mib", 1}},
+                                 {{"id", "exact"}, {"form", "lists"}, {"memory_mib", 1024}}},
+                                64, "rgba32f");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    gl::FrameTimer timer(*context);
+    timer.begin_frame(false);
+    const Overdraw overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
+    timer.end_frame();
+    ASSERT_GT(overdraw.total(), 374490u);
+    const auto small = stage.make(spec.methods[0]);
+    stage.frame(*small);
+    const Image tiled = stage.target().read();
+    EXPECT_LE(small->memory_bytes(), (1 << 20) + 64 * 64 * 4 + 4);
+    EXPECT_EQ(greatest_difference(tiled, stage.picture(spec.methods[1])), 0);
+}
+
+/// 300 layers of one pixel's depth order reversed by submission: the sort has to turn the whole list around.
+TEST(References, LongListsAreSorted) {
+    const auto context = make_context("egl");
+    nlohmann::json layers = nlohmann::json::array();
+    for (int i = 0; i < 300; ++i)
+        layers.push_back({{"rect", {0, 0, 1, 1}},
+                          {"depth", 0.001 + 0.003 * ((i * 7) % 300)},
+                          {"color", {(i % 7) / 7.0, (i % 11) / 11.0, (i % 13) / 13.0}},
+                          {"alpha", 0.02}});
+    const Spec spec =
+        make_spec({{"type", "layers"}, {"layers", layers}},
+                  {{{"id", "exact"}, {"form", "lists"}}, {{"id", "exact"}, {"form", "sorted"}}}, 8, "rgba32f");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    EXPECT_LE(greatest_difference(stage.picture(spec.methods[0]), stage.picture(spec.methods[1])), 300 * 1e-7);
+}
+
+/// Four layers at one depth: none may be lost, and the later submitted counts as nearer, so blending in submission
+/// order is the answer.
+TEST(References, EqualDepthsKeepTheirFragments) {
+    const auto context = make_context("egl");
+    nlohmann::json layers = nlohmann::json::array();
+    for (const auto& color : {std::array{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}})
+        layers.push_back({{"rect", {0, 0, 1, 1}}, {"depth", 0.5}, {"color", color}, {"alpha", 0.5}});
+    const Spec spec = make_spec({{"type", "layers"}, {"layers", layers}},
+                                {"unsorted",
+                                 {{"id", "exact"}, {"form", "lists"}},
+                                 {{"id", "exact"}, {"form", "sorted"}},
+                                 "depth_peeling",
+                                 "b2f",
+                                 "f2b"},
+                                8, "rgba32f");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    const Image expected = stage.picture(spec.methods[0]);
+    for (const MethodSpec& method : spec.methods)
+        EXPECT_LE(greatest_difference(expected, stage.picture(method)), float_tolerance) << method.label;
+}
+
+/// A rectangle of 3 x 2 pixels, one of 2 x 2 inside it, and an opaque one that hides a column of the first.
+TEST(Overdraw, CountsVisibleFragments) {
+    const auto context = make_context("egl");
+    const nlohmann::json scene = {
+        {"type", "layers"},
+        {"layers",
+         {{{"rect", {0, 0, 0.75, 0.5}}, {"depth", 0.6}, {"color", {1, 1, 1}}, {"alpha", 0}},
+          {{"rect", {0, 0, 0.5, 0.5}}, {"depth", 0.3}, {"color", {1, 1, 1}}, {"alpha", 1}},
+          {{"rect", {0.5, 0, 0.75, 1}}, {"depth", 0.4}, {"color", {1, 1, 1}}, {"alpha", 1}, {"opaque", true}}}}};
+    const Spec spec = make_spec(scene, {"b2f"}, 4);
+    Stage stage(*context, spec, PixelFormat::rgba8);
+    gl::FrameTimer timer(*context);
+    timer.begin_frame(false);
+    const Overdraw overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
+    timer.end_frame();
+    const std::vector<std::uint32_t> expected = {2, 2, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    EXPECT_EQ(overdraw.counts, expected);
+    EXPECT_EQ(overdraw.total(), 8u);
+    EXPECT_EQ(overdraw.greatest(), 2u);
+    EXPECT_EQ(overdraw.total_in(1, 0, 3, 2), 4u);
+}
+
+}  // namespace
+
+}  // namespace sheer::test

@@ -1,0 +1,82 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/methods/method.h"
+#include "renderer/spec/spec.h"
+
+namespace sheer::test {
+
+/// The three ways to a context. GLFW needs a display; the runner gives one (Xvfb).
+inline std::vector<std::string> contexts() {
+    std::vector<std::string> all = {"egl", "osmesa"};
+    if (std::getenv("DISPLAY") != nullptr) all.emplace_back("glfw");
+    return all;
+}
+
+inline std::unique_ptr<gl::Context> make_context(const std::string& kind) {
+    gl::ContextRequest request;
+    request.context = kind;
+    return gl::create_context(request);
+}
+
+/// A scene and a target on a context, to run methods in.
+class Stage {
+  public:
+    Stage(gl::Context& context, const Spec& spec, PixelFormat format)
+        : m_context(context),
+          m_timer(context),
+          m_scene(context.gl(), find_scene(spec.scene_type)->build(spec.scene, spec.image), spec.scene),
+          m_target(context.gl(), spec.image, format) {}
+
+    const Scene& scene() const { return m_scene; }
+    const Target& target() const { return m_target; }
+
+    /// `functions` may stand in for the context's own, to count calls.
+    std::unique_ptr<Method> make(const MethodSpec& method, const gl::Functions* functions = nullptr) {
+        return find_method(method.id)->make(
+            {m_context, functions ? *functions : m_context.gl(), m_scene, m_target, method.parameters});
+    }
+
+    gl::FrameSample frame(Method& method, bool timed = false) {
+        m_timer.begin_frame(timed);
+        method.render(m_timer);
+        return m_timer.end_frame();
+    }
+
+    Image picture(const MethodSpec& spec) {
+        const auto method = make(spec);
+        frame(*method);
+        Image image = m_target.read();
+        m_context.check("rendering " + spec.id);
+        return image;
+    }
+
+  private:
+    gl::Context& m_context;
+    gl::FrameTimer m_timer;
+    Scene m_scene;
+    Target m_target;
+};
+
+/// A spec with these methods, each an id or an object.
+inline Spec make_spec(const nlohmann::json& scene, const nlohmann::json& methods, int size_px = 32,
+                      const std::string& format = "rgba8") {
+    return parse_spec(
+        {{"scene", scene},
+         {"methods", methods},
+         {"image", {{"width", size_px}, {"height", size_px}, {"background", {0.2, 0.4, 0.6}}, {"format", format}}}});
+}
+
+inline double greatest_difference(const Image& a, const Image& b) {
+    double greatest = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        if (i % 4 != 3) greatest = std::max(greatest, std::abs(double{a.rgba[i]} - b.rgba[i]));
+    return greatest;
+}
+
+}  // namespace sheer::test
