@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <system_error>
 #include <vector>
 
@@ -16,13 +15,14 @@ StopSignal::StopSignal() {
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    pthread_sigmask(SIG_BLOCK, &signals, &m_blocked_before);
     m_descriptor = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
     if (m_descriptor < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
 }
 
 StopSignal::~StopSignal() {
     close(m_descriptor);
+    pthread_sigmask(SIG_SETMASK, &m_blocked_before, nullptr);
 }
 
 bool StopSignal::requested() {

@@ -1,10 +1,11 @@
 #pragma once
+#include <csignal>
 #include <initializer_list>
 
 namespace sheer {
 
-/// SIGTERM and SIGINT as a file descriptor to wait on. They are blocked in the thread that makes this object and in
-/// those it starts, so make it before any other thread.
+/// SIGTERM and SIGINT as a file descriptor to wait on. During its life they are blocked in the thread that made it and
+/// in those which that thread starts, so make it before any other thread.
 class StopSignal {
   public:
     /// Throws std::system_error.
@@ -19,6 +20,7 @@ class StopSignal {
 
   private:
     int m_descriptor = -1;
+    sigset_t m_blocked_before{};
     bool m_requested = false;
 };
 

@@ -1,0 +1,248 @@
+#include "server/worker/worker.h"
+
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "server/worker/report_folder.h"
+#include "server/worker/scratch.h"
+#include "server/worker/supervisor.h"
+#include "store_fixture.h"
+
+namespace sheer::test {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+/// A worker whose renderer is a shell script: $1 render, $2 the spec, $3 --out, $4 the folder.
+class WorkerTest : public StoreTest {
+  protected:
+    WorkerTest() { m_options.data = m_folder.path() / "data"; }
+
+    void run_with(const std::string& script) {
+        std::filesystem::remove(m_folder.path() / "renderer");
+        m_options.program = m_folder.file("renderer", "#!/bin/sh\n" + script + "\n");
+        std::filesystem::permissions(m_options.program, std::filesystem::perms::owner_all);
+        EXPECT_TRUE(Worker(m_store, m_options, m_clock).run_next(m_stop));
+        EXPECT_TRUE(std::filesystem::is_empty(m_options.data / "scratch"));
+    }
+
+    /// Leaves a report with one picture.
+    std::string leave_report(const std::string& picture, const std::string& sha256) const {
+        return fmt::format(
+            R"(mkdir "$4"; printf %s '{}' > "$4/{}"; printf %s '{}' > "$4/report.json")", picture, sha256,
+            R"({"verdict": "none", "id": null, "picture": {"url": "u", "media_type": "image/png", "sha256": ")" +
+                sha256 + R"("}})");
+    }
+
+    JobError error(const std::string& id) { return m_store.find(id)->error.value_or(JobError{"none", "none"}); }
+
+    StopSignal m_stop;
+    WorkerOptions m_options{.data = {}, .name = "worker", .time_limit = 20s, .rules = {.heartbeat_ms = 50}};
+};
+
+TEST_F(WorkerTest, CommitsWhatTheRendererLeft) {
+    const std::string id = submit("title");
+    const std::string sha256 = sha256_hex("picture");
+    run_with(leave_report("picture", sha256));
+    ASSERT_EQ(status(id), Status::done);
+    const json report = json::parse(m_store.find(id)->report);
+    EXPECT_EQ(report["id"], id);
+    EXPECT_EQ(report["status"], "done");
+    EXPECT_EQ(report["progress"], 1.0);
+    EXPECT_EQ(report["created_at"], utc_text(m_now_ms));
+    EXPECT_EQ(report["finished_at"], utc_text(m_now_ms));
+    EXPECT_EQ(report["spec"]["title"], "title");
+    EXPECT_EQ(report["spec_sha256"], "hash of title");
+    EXPECT_EQ(read_file(m_store.find_blob(sha256)->path, 100), "picture");
+}
+
+TEST_F(WorkerTest, AFailedCheckIsADoneReport) {
+    const std::string id = submit();
+    run_with(leave_report("p", sha256_hex("p")) + "; exit 1");
+    EXPECT_EQ(status(id), Status::done);
+}
+
+TEST_F(WorkerTest, TheRendererGetsTheSpec) {
+    const std::string id = submit("told");
+    run_with(R"([ "$1 $3" = "render --out" ] || exit 9; grep -q '"title":"told"' "$2" || exit 9; )" +
+             leave_report("p", sha256_hex("p")));
+    EXPECT_EQ(status(id), Status::done);
+}
+
+TEST_F(WorkerTest, ARendererThatDiesIsTriedOnceMore) {
+    const std::string id = submit();
+    run_with("kill -SEGV $$");
+    EXPECT_EQ(status(id), Status::queued);
+    run_with("kill -SEGV $$");
+    ASSERT_EQ(status(id), Status::failed);
+    EXPECT_EQ(error(id).detail, "The renderer died (signal 11).");
+}
+
+TEST_F(WorkerTest, ARendererThatExplainsItselfIsNotTriedAgain) {
+    const std::string id = submit();
+    run_with(R"(echo noise; echo '{"error": {"kind": "unsupported", "detail": "no textures"}}'; exit 3)");
+    ASSERT_EQ(status(id), Status::failed);
+    EXPECT_EQ(error(id).title, "Not supported on this device");
+    EXPECT_EQ(error(id).detail, "no textures");
+}
+
+TEST_F(WorkerTest, ARendererThatSaysNothingFailsCleanly) {
+    const std::string id = submit();
+    run_with("exit 3");
+    EXPECT_EQ(error(id).detail, "The renderer ended with exit code 3.");
+}
+
+TEST_F(WorkerTest, ARendererThatTakesTooLongIsStopped) {
+    const std::string id = submit();
+    m_options.time_limit = 200ms;
+    run_with("sleep 60");
+    EXPECT_EQ(error(id).title, "Rendering took too long");
+}
+
+TEST_F(WorkerTest, AReportThatIsNotWholeIsNotKept) {
+    const std::string of_other_bytes = leave_report("picture", sha256_hex("other"));
+    const std::string no_report = "mkdir $4";
+    const std::string no_json = "mkdir $4; echo x > $4/report.json";
+    for (const std::string& script : {of_other_bytes, no_report, no_json}) {
+        const std::string id = submit();
+        run_with(script);
+        EXPECT_EQ(status(id), Status::queued);
+        run_with(script);
+        EXPECT_EQ(status(id), Status::failed) << script;
+        // The log has the paths, the reader has not.
+        EXPECT_EQ(error(id).detail, "The service's log says why.");
+    }
+    EXPECT_EQ(TemporaryFolder::count_files(m_options.data / "blobs"), 0);
+}
+
+TEST_F(WorkerTest, ProgressIsKept) {
+    const std::string id = submit();
+    std::string seen;
+    std::thread watcher([&] {
+        SqliteStore reader(m_options.data, m_rules, m_clock);
+        for (int i = 0; i < 500 && seen.empty(); ++i) {
+            const auto record = reader.find(id);
+            if (record->progress == 0.5) seen = record->stage;
+            std::this_thread::sleep_for(10ms);
+        }
+    });
+    run_with(R"(echo '{"progress": 0.5, "stage": "timing"}'; sleep 1; exit 3)");
+    watcher.join();
+    EXPECT_EQ(seen, "timing");
+    EXPECT_EQ(m_store.last_rendered_ms(), m_now_ms);
+}
+
+TEST_F(WorkerTest, ACancelledJobIsKilled) {
+    const std::string id = submit();
+    std::thread canceller([&] {
+        SqliteStore other(m_options.data, m_rules, m_clock);
+        while (other.find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
+        EXPECT_EQ(other.remove(id), RemoveResult::cancelling);
+    });
+    run_with("sleep 60");
+    canceller.join();
+    EXPECT_EQ(status(id), Status::cancelled);
+}
+
+TEST_F(WorkerTest, AJobThatAnotherWorkerTookIsLeftToIt) {
+    const std::string id = submit();
+    std::thread thief([&] {
+        SqliteStore other(m_options.data, m_rules, m_clock);
+        while (other.find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
+        other.end_leases_of("worker");
+    });
+    run_with("sleep 60");
+    thief.join();
+    EXPECT_EQ(status(id), Status::queued);
+}
+
+TEST_F(WorkerTest, AStopGivesTheJobBack) {
+    const std::string id = submit();
+    // The renderer stops its worker, which is this process; the signal waits in the descriptor.
+    run_with(fmt::format("kill -TERM {}; sleep 60", getpid()));
+    EXPECT_TRUE(m_stop.requested());
+    EXPECT_EQ(status(id), Status::queued);
+    EXPECT_EQ(lease().attempt, 1);
+}
+
+TEST_F(WorkerTest, AProbeNotesThatItRendered) {
+    m_options.program = "/bin/false";
+    Worker(m_store, m_options, m_clock).probe(m_stop);
+    EXPECT_FALSE(m_store.last_rendered_ms());
+    m_options.program = "/bin/true";
+    Worker(m_store, m_options, m_clock).probe(m_stop);
+    EXPECT_EQ(m_store.last_rendered_ms(), m_now_ms);
+}
+
+TEST_F(WorkerTest, ScratchOfJobsThatDoNotRunIsSwept) {
+    const std::string running = submit();
+    const Lease job = lease();
+    const std::filesystem::path scratch = m_options.data / "scratch";
+    std::filesystem::create_directories(scratch / (running + "-1"));
+    std::filesystem::create_directories(scratch / (submit() + "-1"));
+    std::filesystem::create_directories(scratch / "odd");
+    sweep_scratch(scratch, m_store);
+    EXPECT_TRUE(std::filesystem::exists(scratch / (running + "-1")));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch), {}), 1);
+    const ScratchFolder second(scratch, running, 2);
+    EXPECT_FALSE(std::filesystem::exists(scratch / (running + "-1")));
+}
+
+TEST_F(WorkerTest, TheSupervisorReplacesWorkersAndEndsTheirLeases) {
+    const std::string script = m_folder.file(
+        "worker", fmt::format("#!/bin/sh\necho \"$3\" >> {}\nexec sleep 60\n", (m_folder.path() / "names").string()));
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+    const auto name = [&](int index) {
+        for (int i = 0; i < 500; ++i) {
+            std::ifstream names(m_folder.path() / "names");
+            std::string line;
+            for (int skipped = 0; skipped <= index && std::getline(names, line); ++skipped)
+                if (skipped == index) return line;
+            std::this_thread::sleep_for(10ms);
+        }
+        return std::string();
+    };
+    Supervisor supervisor(m_store, {.workers = 1, .program = script, .arguments = {"worker"}, .first_backoff = 10ms});
+    const std::string first = name(0);
+    ASSERT_NE(first, "");
+    const std::string id = submit();
+    m_store.lease(first);
+    // The name begins with our process id; the worker is our only child of that name.
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+        std::ifstream children(entry.path() / "children");
+        for (pid_t child; children >> child;) kill(child, SIGKILL);
+    }
+    const std::string second = name(1);
+    EXPECT_NE(second, "");
+    EXPECT_NE(second, first);
+    EXPECT_EQ(status(id), Status::queued);
+    supervisor.stop();
+    EXPECT_EQ(name(1), second);
+}
+
+TEST(ReportFolder, PicturesAreFoundWhereverTheyStand) {
+    const auto image = [](const char* sha256) {
+        return json{{"sha256", sha256}, {"url", "u"}, {"media_type", "image/png"}};
+    };
+    const json report = {{"runs", {{{"results", {{{"images", {{"color", image("a")}, {"flip", image("b")}}}}}}}}},
+                         {"again", image("a")},
+                         {"spec_sha256", "c"}};
+    const auto blobs = named_blobs(report, "/folder");
+    ASSERT_EQ(blobs.size(), 2u);
+    EXPECT_EQ(blobs[0].path.parent_path(), "/folder");
+}
+
+TEST(ReportFolder, APageIsNoPicture) {
+    const TemporaryFolder folder;
+    const std::string sha256 = sha256_hex("<script>");
+    folder.file(sha256, "<script>");
+    for (const char* type : {"text/html", "image/svg+xml"}) {
+        folder.file("report.json", json{{"a", {{"sha256", sha256}, {"url", "u"}, {"media_type", type}}}}.dump());
+        EXPECT_THROW(read_report_folder(folder.path(), Lease{.spec = "{}"}, 0), StoreError) << type;
+    }
+}
+
+}  // namespace
+}  // namespace sheer::test
