@@ -4,6 +4,7 @@ function(sheer_version target)
   add_custom_target(sheer_version_header
     COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DVERSION=${PROJECT_VERSION} -DROOT=${CMAKE_SOURCE_DIR}
             -P ${CMAKE_SOURCE_DIR}/cmake/write_version.cmake
-    BYPRODUCTS ${output})
+    BYPRODUCTS ${output}
+    COMMENT "Looking up the version")
   add_dependencies(${target} sheer_version_header)
 endfunction()
