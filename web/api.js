@@ -22,24 +22,36 @@ async function call(path, options = {}) {
   }
   const is_json = (response.headers.get("Content-Type") ?? "").includes("json");
   const body = is_json ? await response.json() : null;
-  if (!response.ok) throw new ApiError(response.status, body ?? {}, Number(response.headers.get("Retry-After")) || null);
+  if (!response.ok)
+    throw new ApiError(response.status, body ?? {}, Number(response.headers.get("Retry-After")) || null);
   return { body, location: response.headers.get("Location") };
 }
 
 function post(path, value, options = {}) {
-  return call(path, { method: "POST", headers: { "Content-Type": "application/json" },
-                      body: JSON.stringify(value), ...options });
+  return call(path, {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(value),
+    ...options,
+  });
 }
 
 export const report_path = (id) => `${ROOT}/reports/${encodeURIComponent(id)}`;
 
-export async function get_methods() { return list_of((await call("/methods")).body, "methods"); }
-export async function get_scenes() { return list_of((await call("/scenes")).body, "scenes"); }
-
-function list_of(body, name) { return Array.isArray(body) ? body : body[name]; }
+export async function get_methods() {
+  return (await call("/methods")).body;
+}
+export async function get_scenes() {
+  return (await call("/scenes")).body;
+}
+export async function get_metrics() {
+  return (await call("/metrics")).body;
+}
 
 /** The spec with its defaults filled in; throws ApiError with `errors` if it is wrong. */
-export async function validate(spec, signal) { return (await post("/specs/validate", spec, { signal })).body; }
+export async function validate(spec, signal) {
+  return (await post("/specs/validate", spec, { signal })).body;
+}
 
 /** Queues a comparison; gives its id. */
 export async function submit(spec) {
@@ -51,7 +63,9 @@ export async function get_report(id, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}`, { signal })).body;
 }
 
-export async function delete_report(id) { await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" }); }
+export async function delete_report(id) {
+  await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" });
+}
 
 /** A page of the archive: {reports, next_cursor}. */
 export async function list_reports(query, signal) {
@@ -75,6 +89,8 @@ export function follow(id, on_progress, on_end) {
     });
   }
   // The browser reconnects by itself while the source is not closed.
-  source.addEventListener("error", () => { if (source.readyState === EventSource.CLOSED) on_end(); });
+  source.addEventListener("error", () => {
+    if (source.readyState === EventSource.CLOSED) on_end();
+  });
   return close;
 }

@@ -30,7 +30,11 @@ function route(moved) {
   mark_current(hash);
   const found = ROUTES.find(([pattern]) => pattern.test(hash));
   if (!found) {
-    set_children(main, el("h1", {}, "Not here"), el("p", {}, "There is no such page. ", el("a", { href: "#/" }, "New comparison")));
+    set_children(
+      main,
+      el("h1", {}, "Not here"),
+      el("p", {}, "There is no such page. ", el("a", { href: "#/" }, "New comparison")),
+    );
     return;
   }
   const [pattern, show] = found;

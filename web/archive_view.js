@@ -5,13 +5,22 @@ import { ago, short_value, when } from "./format.js";
 
 const PAGE_SIZE = 20;
 const TYPING_PAUSE_MS = 250;
-const STATUSES = [["", "Any status"], ["done", "Done"], ["running", "Running"], ["queued", "Queued"],
-                  ["failed", "Failed"], ["cancelled", "Cancelled"]];
+const STATUSES = [
+  ["", "Any status"],
+  ["done", "Done"],
+  ["running", "Running"],
+  ["queued", "Queued"],
+  ["failed", "Failed"],
+  ["cancelled", "Cancelled"],
+];
 
 function thumbnail(entry) {
   const url = entry.preview?.url;
-  return el("div", { class: "thumb" },
-    typeof url === "string" ? el("img", { src: url, alt: "", loading: "lazy", decoding: "async" }) : null);
+  return el(
+    "div",
+    { class: "thumb" },
+    typeof url === "string" ? el("img", { src: url, alt: "", loading: "lazy", decoding: "async" }) : null,
+  );
 }
 
 function method_names(entry) {
@@ -20,27 +29,53 @@ function method_names(entry) {
 
 function row(entry, on_deleted, on_error) {
   const title = entry.title || "Untitled comparison";
-  const remove = el("button", { type: "button", class: "quiet danger", "aria-label": `Delete ${title}`, onclick: async () => {
-    const unsettled = entry.status === "queued" || entry.status === "running";
-    if (!window.confirm(unsettled ? `Cancel “${title}”?` : `Delete “${title}”? This cannot be undone.`)) return;
-    try {
-      await delete_report(entry.id);
-      on_deleted(node, unsettled);
-    } catch (error) {
-      on_error(error);
-    }
-  } }, "Delete");
-  const node = el("li", { class: "entry", "data-id": entry.id }, thumbnail(entry),
-    el("div", { class: "entry-text" },
+  const remove = el(
+    "button",
+    {
+      type: "button",
+      class: "quiet danger",
+      "aria-label": `Delete ${title}`,
+      onclick: async () => {
+        const unsettled = entry.status === "queued" || entry.status === "running";
+        if (!window.confirm(unsettled ? `Cancel “${title}”?` : `Delete “${title}”? This cannot be undone.`)) return;
+        try {
+          await delete_report(entry.id);
+          on_deleted(node, unsettled);
+        } catch (error) {
+          on_error(error);
+        }
+      },
+    },
+    "Delete",
+  );
+  const node = el(
+    "li",
+    { class: "entry", "data-id": entry.id },
+    thumbnail(entry),
+    el(
+      "div",
+      { class: "entry-text" },
       el("a", { class: "entry-title", href: `#/reports/${encodeURIComponent(entry.id)}` }, title),
       el("p", { class: "muted" }, [entry.scene?.type ?? entry.scene, method_names(entry)].filter(Boolean).join(" — ")),
-      el("p", { class: "entry-tags" }, Object.entries(entry.tags ?? {}).map(([name, value]) =>
-        el("span", { class: "chip tag" }, `${name}: ${short_value(value)}`)))),
-    el("div", { class: "entry-state" },
+      el(
+        "p",
+        { class: "entry-tags" },
+        Object.entries(entry.tags ?? {}).map(([name, value]) =>
+          el("span", { class: "chip tag" }, `${name}: ${short_value(value)}`),
+        ),
+      ),
+    ),
+    el(
+      "div",
+      { class: "entry-state" },
       el("span", { class: `status ${entry.status}` }, entry.status),
-      entry.verdict && entry.verdict !== "none" ? el("span", { class: `verdict small ${entry.verdict}` }, `checks ${entry.verdict}`) : null,
-      el("time", { class: "muted", datetime: entry.created_at, title: when(entry.created_at) }, ago(entry.created_at))),
-    remove);
+      entry.verdict && entry.verdict !== "none"
+        ? el("span", { class: `verdict small ${entry.verdict}` }, `checks ${entry.verdict}`)
+        : null,
+      el("time", { class: "muted", datetime: entry.created_at, title: when(entry.created_at) }, ago(entry.created_at)),
+    ),
+    remove,
+  );
   return node;
 }
 
@@ -78,27 +113,44 @@ export function show_archive(main, signal) {
       list.append(...page.reports.map((entry) => row(entry, on_deleted, on_error)));
       cursor = page.next_cursor ?? null;
       more.hidden = !cursor;
-      note.textContent = list.children.length > 0 ? "" :
-        query.q || query.status ? "No report matches." : "No reports yet.";
+      note.textContent =
+        list.children.length > 0 ? "" : query.q || query.status ? "No report matches." : "No reports yet.";
     } catch (error) {
       if (!mine.signal.aborted) on_error(error);
     }
   }
 
   let typing = null;
-  const search = el("input", { type: "search", "aria-label": "Search reports", placeholder: "Search titles and tags",
+  const search = el("input", {
+    type: "search",
+    "aria-label": "Search reports",
+    placeholder: "Search titles and tags",
     oninput: () => {
       clearTimeout(typing);
       typing = setTimeout(() => {
         query.q = search.value.trim();
         load(true);
       }, TYPING_PAUSE_MS);
-    } });
-  const status = select({ "aria-label": "Status", onchange: (event) => {
-    query.status = event.target.value;
-    load(true);
-  } }, STATUSES, "");
-  set_children(main, el("h1", {}, "Reports"), el("div", { class: "filters", role: "search" }, search, status), note, list,
-    el("div", { class: "more" }, more));
+    },
+  });
+  const status = select(
+    {
+      "aria-label": "Status",
+      onchange: (event) => {
+        query.status = event.target.value;
+        load(true);
+      },
+    },
+    STATUSES,
+    "",
+  );
+  set_children(
+    main,
+    el("h1", {}, "Reports"),
+    el("div", { class: "filters", role: "search" }, search, status),
+    note,
+    list,
+    el("div", { class: "more" }, more),
+  );
   load(true);
 }

@@ -15,39 +15,108 @@ export const TIMING_COLUMNS = [
   { path: "timing.mad", head: "MAD", unit: "ms", title: "Median absolute deviation from the median" },
   { path: "timing.min", head: "Min", unit: "ms", title: "Fastest frame", ...lower },
   { path: "timing.p95", head: "p95", unit: "ms", title: "95th percentile of the frames", ...lower },
-  { path: "timing.initialization", head: "Init.", unit: "ms",
-    title: "Initialization: preparing the method's own targets, part of the frame" },
-  { path: "timing.finalization", head: "Final.", unit: "ms",
-    title: "Finalization: bringing the result into the image, part of the frame" },
+  {
+    path: "timing.initialization",
+    head: "Init.",
+    unit: "ms",
+    title: "Initialization: preparing the method's own targets, part of the frame",
+  },
+  {
+    path: "timing.finalization",
+    head: "Final.",
+    unit: "ms",
+    title: "Finalization: bringing the result into the image, part of the frame",
+  },
 ];
 
 export const SPEEDUP_COLUMN = {
-  path: "speedup.value", head: "Speed-up", unit: "×", better: (value) => -value,
+  path: "speedup.value",
+  head: "Speed-up",
+  unit: "×",
+  better: (value) => -value,
   title: "Baseline's time over this method's time, with the 95 % confidence interval",
 };
 
 /** Of the table of differences, in the order they are shown. */
 export const DIFFERENCE_COLUMNS = [
-  { path: "metrics.signed.mean_abs", metric: "signed.mean_abs", head: "Mean |Δ|", unit: "levels", ...lower,
-    title: "Mean absolute difference over red, green and blue, in 8-bit levels" },
-  { path: "metrics.signed.min", metric: "signed.min", head: "Min Δ", unit: "levels", ...nearer_zero,
-    title: "Smallest reference minus method: how far the method is too bright" },
-  { path: "metrics.signed.max", metric: "signed.max", head: "Max Δ", unit: "levels", ...nearer_zero,
-    title: "Greatest reference minus method: how far the method is too dark" },
+  {
+    path: "metrics.signed.mean_abs",
+    metric: "signed.mean_abs",
+    head: "Mean |Δ|",
+    unit: "levels",
+    ...lower,
+    title: "Mean absolute difference over red, green and blue, in 8-bit levels",
+  },
+  {
+    path: "metrics.signed.min",
+    metric: "signed.min",
+    head: "Min Δ",
+    unit: "levels",
+    ...nearer_zero,
+    title: "Smallest reference minus method: how far the method is too bright",
+  },
+  {
+    path: "metrics.signed.max",
+    metric: "signed.max",
+    head: "Max Δ",
+    unit: "levels",
+    ...nearer_zero,
+    title: "Greatest reference minus method: how far the method is too dark",
+  },
   { path: "metrics.rmse", metric: "rmse", head: "RMSE", unit: "0..1", ...lower, title: "Root mean square error" },
-  { path: "metrics.psnr", metric: "psnr", head: "PSNR", unit: "dB", better: (value) => -value,
-    title: "Peak signal-to-noise ratio", null_is_perfect: true },
-  { path: "metrics.ssim", metric: "ssim", head: "SSIM", unit: "−1..1", better: (value) => -value, digits: 4,
-    title: "Structural similarity" },
-  { path: "metrics.flip.mean", metric: "flip.mean", head: "FLIP mean", unit: "0..1", ...lower,
-    title: "Mean FLIP error" },
-  { path: "metrics.differing_pixels", metric: "differing_pixels", head: "Differing", unit: "px", whole: true, ...lower,
-    title: "Pixels that differ from the reference after rounding to 8 bits" },
-  { path: "metrics.worst_pixel", metric: "worst_pixel", head: "Worst pixel", unit: "x, y", pixel: true,
+  {
+    path: "metrics.psnr",
+    metric: "psnr",
+    head: "PSNR",
+    unit: "dB",
+    better: (value) => -value,
+    title: "Peak signal-to-noise ratio",
     null_is_perfect: true,
-    title: "Pixel that differs most; click it to look there" },
-  { path: "metrics.non_finite", metric: "non_finite", head: "Non-finite", unit: "px", whole: true, ...lower,
-    title: "Pixels with an infinity or a NaN" },
+  },
+  {
+    path: "metrics.ssim",
+    metric: "ssim",
+    head: "SSIM",
+    unit: "−1..1",
+    better: (value) => -value,
+    digits: 4,
+    title: "Structural similarity",
+  },
+  {
+    path: "metrics.flip.mean",
+    metric: "flip.mean",
+    head: "FLIP mean",
+    unit: "0..1",
+    ...lower,
+    title: "Mean FLIP error",
+  },
+  {
+    path: "metrics.differing_pixels",
+    metric: "differing_pixels",
+    head: "Differing",
+    unit: "px",
+    whole: true,
+    ...lower,
+    title: "Pixels that differ from the reference after rounding to 8 bits",
+  },
+  {
+    path: "metrics.worst_pixel",
+    metric: "worst_pixel",
+    head: "Worst pixel",
+    unit: "x, y",
+    pixel: true,
+    null_is_perfect: true,
+    title: "Pixel that differs most; click it to look there",
+  },
+  {
+    path: "metrics.non_finite",
+    metric: "non_finite",
+    head: "Non-finite",
+    unit: "px",
+    whole: true,
+    ...lower,
+    title: "Pixels with an infinity or a NaN",
+  },
 ];
 
 /** Explanation of a column, from the descriptions of the metrics where they have one. */
@@ -66,7 +135,8 @@ export function missing_reason(result, column) {
   for (let length = parts.length; length > 0; --length) {
     const owner = length > 1 ? value_at(result, parts.slice(0, length - 1).join(".")) : result;
     const key = parts[length - 1];
-    const reason = owner?.reasons?.[key] ?? owner?.[`${key}_reason`] ?? (length < parts.length ? owner?.[key]?.reason : null);
+    const reason =
+      owner?.reasons?.[key] ?? owner?.[`${key}_reason`] ?? (length < parts.length ? owner?.[key]?.reason : null);
     if (reason) return reason;
   }
   if (column.null_is_perfect && is_perfect(result)) return "none: identical to the reference";
@@ -83,11 +153,14 @@ export function is_perfect(result) {
  */
 export function best_results(results, column) {
   if (!column.better) return new Set();
-  const scores = results.filter((result) => result.status === "ok" && result.metrics).map((result) => {
-    const value = value_at(result, column.path);
-    if (is_number(value)) return [result, column.better(value)];
-    return [result, column.null_is_perfect && is_perfect(result) ? -Infinity : NaN];
-  }).filter(([, score]) => !Number.isNaN(score));
+  const scores = results
+    .filter((result) => result.status === "ok" && result.metrics)
+    .map((result) => {
+      const value = value_at(result, column.path);
+      if (is_number(value)) return [result, column.better(value)];
+      return [result, column.null_is_perfect && is_perfect(result) ? -Infinity : NaN];
+    })
+    .filter(([, score]) => !Number.isNaN(score));
   const best = Math.min(...scores.map(([, score]) => score));
   const worst = Math.max(...scores.map(([, score]) => score));
   if (scores.length < 2 || best === worst) return new Set();

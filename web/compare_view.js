@@ -17,7 +17,12 @@ class CompareView {
   #typing = null;
   #text_error = null;
   #state = el("p", { class: "spec-state", role: "status" });
-  #text = el("textarea", { class: "json", spellcheck: "false", "aria-label": "Spec as JSON", "aria-describedby": "json-errors" });
+  #text = el("textarea", {
+    class: "json",
+    spellcheck: "false",
+    "aria-label": "Spec as JSON",
+    "aria-describedby": "json-errors",
+  });
   #text_errors = el("ul", { class: "json-errors", id: "json-errors" });
   #loose_errors = el("ul", { class: "json-errors" });
   #run = el("button", { type: "button", class: "primary", onclick: () => this.#submit() }, "Run comparison");
@@ -37,31 +42,75 @@ class CompareView {
     });
     this.#text.addEventListener("input", () => this.#read_text());
     signal.addEventListener("abort", () => clearTimeout(this.#typing));
-    this.element = el("div", { class: "compare" }, el("h1", {}, "New comparison"), this.#preset_row(presets), this.#tabs(),
-      el("div", { class: "submit-bar" }, this.#state, this.#run));
+    this.element = el(
+      "div",
+      { class: "compare" },
+      el("h1", {}, "New comparison"),
+      this.#preset_row(presets),
+      this.#tabs(),
+      el("div", { class: "submit-bar" }, this.#state, this.#run),
+    );
     this.#write_text();
     this.#changed();
   }
 
   #preset_row(presets) {
-    return el("div", { class: "presets", role: "group", "aria-label": "Start from" }, presets.map((preset) =>
-      el("button", { type: "button", class: "preset", onclick: () => {
-        this.#model.replace(preset.spec);
-        this.#write_text();
-      } }, el("strong", {}, preset.name), el("span", {}, preset.summary))));
+    return el(
+      "div",
+      { class: "presets", role: "group", "aria-label": "Start from" },
+      presets.map((preset) =>
+        el(
+          "button",
+          {
+            type: "button",
+            class: "preset",
+            onclick: () => {
+              this.#model.replace(preset.spec);
+              this.#write_text();
+            },
+          },
+          el("strong", {}, preset.name),
+          el("span", {}, preset.summary),
+        ),
+      ),
+    );
   }
 
   #tabs() {
-    const panels = [["Form", el("div", {}, this.#loose_errors, this.#form.element)],
-                    ["Spec", el("div", { class: "spec-panel" }, el("p", { class: "hint" },
-                      "The same comparison as JSON, for sheer compare or the REST interface. Edit it, or paste another."),
-                      this.#text, this.#text_errors)]];
+    const panels = [
+      ["Form", el("div", {}, this.#loose_errors, this.#form.element)],
+      [
+        "Spec",
+        el(
+          "div",
+          { class: "spec-panel" },
+          el(
+            "p",
+            { class: "hint" },
+            "The same comparison as JSON, for sheer compare or the REST interface. Edit it, or paste another.",
+          ),
+          this.#text,
+          this.#text_errors,
+        ),
+      ],
+    ];
     const tabs = panels.map(([name, panel], index) => {
       panel.id = unique_id("panel");
       panel.setAttribute("role", "tabpanel");
       panel.hidden = index !== 0;
-      const tab = el("button", { type: "button", role: "tab", id: unique_id("tab"), "aria-controls": panel.id,
-        "aria-selected": String(index === 0), tabindex: index === 0 ? "0" : "-1", onclick: () => choose(index) }, name);
+      const tab = el(
+        "button",
+        {
+          type: "button",
+          role: "tab",
+          id: unique_id("tab"),
+          "aria-controls": panel.id,
+          "aria-selected": String(index === 0),
+          tabindex: index === 0 ? "0" : "-1",
+          onclick: () => choose(index),
+        },
+        name,
+      );
       panel.setAttribute("aria-labelledby", tab.id);
       return tab;
     });
@@ -72,13 +121,27 @@ class CompareView {
         panels[index][1].hidden = index !== chosen;
       });
     };
-    const list = el("div", { class: "tabs", role: "tablist", "aria-label": "Ways to write the comparison", onkeydown: (event) => {
-      if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
-      const next = 1 - tabs.findIndex((tab) => tab.tabIndex === 0);
-      choose(next);
-      tabs[next].focus();
-    } }, tabs);
-    return el("div", { class: "tabbed" }, list, panels.map(([, panel]) => panel));
+    const list = el(
+      "div",
+      {
+        class: "tabs",
+        role: "tablist",
+        "aria-label": "Ways to write the comparison",
+        onkeydown: (event) => {
+          if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+          const next = 1 - tabs.findIndex((tab) => tab.tabIndex === 0);
+          choose(next);
+          tabs[next].focus();
+        },
+      },
+      tabs,
+    );
+    return el(
+      "div",
+      { class: "tabbed" },
+      list,
+      panels.map(([, panel]) => panel),
+    );
   }
 
   #write_text() {
@@ -107,7 +170,7 @@ class CompareView {
 
   async #validate() {
     this.#request?.abort();
-    const request = this.#request = new AbortController();
+    const request = (this.#request = new AbortController());
     try {
       await validate(this.#model.spec, request.signal);
       if (!request.signal.aborted) this.#show([]);
@@ -125,13 +188,34 @@ class CompareView {
     this.#run.disabled = this.#text_error !== null;
     if (errors.length === 0) clear_errors(this.#form.element);
     const loose = show_errors(this.#form.element, errors);
-    set_children(this.#loose_errors, loose.map(({ pointer, detail }) => el("li", {}, pointer ? `${pointer}: ` : "", detail)));
-    set_children(this.#text_errors, errors.map((error) => el("li", {}, error.pointer === "" ? error.detail : [
-      el("button", { type: "button", class: "link", onclick: () => this.#select(error.pointer) }, error.pointer), ` ${error.detail}`])));
+    set_children(
+      this.#loose_errors,
+      loose.map(({ pointer, detail }) => el("li", {}, pointer ? `${pointer}: ` : "", detail)),
+    );
+    set_children(
+      this.#text_errors,
+      errors.map((error) =>
+        el(
+          "li",
+          {},
+          error.pointer === ""
+            ? error.detail
+            : [
+                el(
+                  "button",
+                  { type: "button", class: "link", onclick: () => this.#select(error.pointer) },
+                  error.pointer,
+                ),
+                ` ${error.detail}`,
+              ],
+        ),
+      ),
+    );
     if (errors.length > 0) this.#text.setAttribute("aria-invalid", "true");
     else this.#text.removeAttribute("aria-invalid");
     this.#state.className = errors.length > 0 ? "spec-state wrong" : "spec-state right";
-    this.#state.textContent = errors.length === 0 ? "The spec is valid." : errors.length === 1 ? "1 error" : `${errors.length} errors`;
+    this.#state.textContent =
+      errors.length === 0 ? "The spec is valid." : errors.length === 1 ? "1 error" : `${errors.length} errors`;
   }
 
   /** Selects the part of the text that an error is about. */
@@ -171,6 +255,11 @@ export async function show_compare(main, signal) {
     const [methods, scenes] = await Promise.all([get_methods(), get_scenes()]);
     if (!signal.aborted) set_children(main, new CompareView({ methods, scenes }, signal).element);
   } catch (error) {
-    if (!signal.aborted) set_children(main, el("h1", {}, "New comparison"), el("p", { class: "notice error", role: "alert" }, error.message));
+    if (!signal.aborted)
+      set_children(
+        main,
+        el("h1", {}, "New comparison"),
+        el("p", { class: "notice error", role: "alert" }, error.message),
+      );
   }
 }

@@ -47,23 +47,32 @@ export function unique_id(stem = "id") {
 /** A row of buttons of which one is pressed; `choices` are [value, label, title?]. */
 export function segmented(label, choices, current, on_choose) {
   const buttons = choices.map(([value, text, title]) =>
-    el("button", {
-      type: "button",
-      title,
-      "data-value": value,
-      "aria-pressed": String(value === current),
-      onclick: () => {
-        for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.value === value));
-        on_choose(value);
+    el(
+      "button",
+      {
+        type: "button",
+        title,
+        "data-value": value,
+        "aria-pressed": String(value === current),
+        onclick: () => {
+          for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.value === value));
+          on_choose(value);
+        },
       },
-    }, text));
+      text,
+    ),
+  );
   return el("div", { class: "segmented", role: "group", "aria-label": label }, buttons);
 }
 
 /** A select; `choices` are [value, label] or {label, choices} for a group. */
 export function select(properties, choices, current) {
   const option = ([value, text]) => el("option", { value, selected: value === current }, text);
-  return el("select", properties, choices.map((choice) =>
-    Array.isArray(choice) ? option(choice)
-                          : el("optgroup", { label: choice.label }, choice.choices.map(option))));
+  return el(
+    "select",
+    properties,
+    choices.map((choice) =>
+      Array.isArray(choice) ? option(choice) : el("optgroup", { label: choice.label }, choice.choices.map(option)),
+    ),
+  );
 }

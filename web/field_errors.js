@@ -31,6 +31,7 @@ export function show_errors(form, errors) {
     const text = exact ? detail : `${pointer.slice(place.dataset.pointer.length + 1)}: ${detail}`;
     slot.textContent = slot.hidden ? text : `${slot.textContent}; ${text}`;
     slot.hidden = false;
+    for (let fold = place.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
     if (place.classList.contains("field")) {
       for (const input of place.querySelectorAll("input, select, textarea")) input.setAttribute("aria-invalid", "true");
     }

@@ -11,7 +11,10 @@ export function is_number(value) {
 /** Decimals that give the smallest value that is not 0 `digits` significant digits, so that a column lines up. */
 export function column_decimals(values, digits = 3) {
   if (values.filter(is_number).every(Number.isInteger)) return 0;
-  const sizes = values.filter(is_number).map(Math.abs).filter((size) => size > 0);
+  const sizes = values
+    .filter(is_number)
+    .map(Math.abs)
+    .filter((size) => size > 0);
   if (sizes.length === 0) return 0;
   const smallest = Math.min(...sizes);
   return Math.min(MAX_DECIMALS, Math.max(0, digits - 1 - Math.floor(Math.log10(smallest))));
@@ -29,10 +32,6 @@ export function integer(value) {
   return is_number(value) ? Math.round(value).toLocaleString("en-US").replace("-", "−") : DASH;
 }
 
-export function percent(fraction) {
-  return is_number(fraction) ? `${(fraction * 100).toFixed(fraction > 0 && fraction < 0.1 ? 1 : 0)} %` : DASH;
-}
-
 /** A zoom factor: 25 %, 100 %, 3200 %. */
 export function zoom_text(zoom) {
   return `${Math.round(zoom * 100)} %`;
@@ -42,8 +41,10 @@ export function when(text) {
   const date = new Date(text);
   if (!text || Number.isNaN(date.getTime())) return DASH;
   const two = (n) => String(n).padStart(2, "0");
-  return `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ` +
-    `${two(date.getHours())}:${two(date.getMinutes())}`;
+  return (
+    `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ` +
+    `${two(date.getHours())}:${two(date.getMinutes())}`
+  );
 }
 
 /** "3 minutes ago", or the date where that is over a day. */
@@ -58,9 +59,12 @@ export function ago(text, now = Date.now()) {
 
 /** `value` in one line: 0.02, leaf, [0, 0, 0], {…}. */
 export function short_value(value) {
-  if (Array.isArray(value)) return value.length > 4 ? `${value.length} items` : `[${value.map(short_value).join(", ")}]`;
+  if (Array.isArray(value))
+    return value.length > 4 ? `${value.length} items` : `[${value.map(short_value).join(", ")}]`;
   if (value !== null && typeof value === "object") {
-    return Object.entries(value).map(([key, part]) => `${key} ${short_value(part)}`).join(", ");
+    return Object.entries(value)
+      .map(([key, part]) => `${key} ${short_value(part)}`)
+      .join(", ");
   }
   return String(value);
 }

@@ -4,7 +4,8 @@ import { zoom_text } from "./format.js";
 import { PicturePane } from "./picture_pane.js";
 import { Viewport } from "./viewport.js";
 
-const KEYS = "Drag to pan, double-click to zoom in and out. Ctrl and wheel, or the wheel alone after a click, zooms. " +
+const KEYS =
+  "Drag to pan, double-click to zoom in and out. Ctrl and wheel, or the wheel alone after a click, zooms. " +
   "Keys: arrows pan, Shift and arrows move the pixel mark, + and − zoom, 0 fits, 1 is 100 %.";
 const INSPECT_ZOOM = 16;
 const SLIDER_HEIGHT_SHARE = 0.8;
@@ -61,8 +62,16 @@ export class ImageViewer {
     this.#viewport.addEventListener("view", () => this.#refresh());
     this.#viewport.addEventListener("cursor", () => this.#show_cursor());
     this.#viewport.addEventListener("inspect", () => this.#announce());
-    this.element = el("section", { class: "viewer", "aria-label": "Pictures" }, this.#toolbar(), this.#note,
-                      this.#stage, this.#missing, el("p", { class: "keys-hint", id: this.#hint_id }, KEYS), this.#announcer);
+    this.element = el(
+      "section",
+      { class: "viewer", "aria-label": "Pictures" },
+      this.#toolbar(),
+      this.#note,
+      this.#stage,
+      this.#missing,
+      el("p", { class: "keys-hint", id: this.#hint_id }, KEYS),
+      this.#announcer,
+    );
     this.#build();
   }
 
@@ -72,10 +81,17 @@ export class ImageViewer {
   }
 
   get #options() {
-    return this.#sources.flatMap((source) => this.#kinds.filter((kind) => source.pictures[kind.key]).map((kind) => ({
-      value: `${source.key}/${kind.key}`, source, kind, url: source.pictures[kind.key],
-      label: source.reference ? source.label : `${source.label} · ${kind.label}`,
-    })));
+    return this.#sources.flatMap((source) =>
+      this.#kinds
+        .filter((kind) => source.pictures[kind.key])
+        .map((kind) => ({
+          value: `${source.key}/${kind.key}`,
+          source,
+          kind,
+          url: source.pictures[kind.key],
+          label: source.reference ? source.label : `${source.label} · ${kind.label}`,
+        })),
+    );
   }
 
   #first_pair() {
@@ -86,26 +102,61 @@ export class ImageViewer {
   }
 
   #toolbar() {
-    this.#kind_control = segmented("Kind of picture", this.#kinds.map((kind) => [kind.key, kind.label]), this.#kind,
-                                   (kind) => { this.#kind = kind; this.#build(); });
-    this.#size_control = segmented("Size of the panes", [["small", "S", "Small panes"], ["medium", "M", "Medium panes"],
-                                   ["large", "L", "Large panes"]], this.#pane_size, (size) => {
-      this.#pane_size = size;
-      this.#stage.dataset.size = size;
-    });
+    this.#kind_control = segmented(
+      "Kind of picture",
+      this.#kinds.map((kind) => [kind.key, kind.label]),
+      this.#kind,
+      (kind) => {
+        this.#kind = kind;
+        this.#build();
+      },
+    );
+    this.#size_control = segmented(
+      "Size of the panes",
+      [
+        ["small", "S", "Small panes"],
+        ["medium", "M", "Medium panes"],
+        ["large", "L", "Large panes"],
+      ],
+      this.#pane_size,
+      (size) => {
+        this.#pane_size = size;
+        this.#stage.dataset.size = size;
+      },
+    );
     const first_pane = () => this.#panes[0]?.pane.size ?? { width: 1, height: 1 };
     const button = (text, label, action) =>
       el("button", { type: "button", title: label, "aria-label": label, onclick: action }, text);
-    this.#layout_control = segmented("Layout", [["grid", "Side by side"], ["slider", "Slider"]], this.#layout,
-                                     (layout) => { this.#layout = layout; this.#build(); });
-    return el("div", { class: "toolbar", role: "group", "aria-label": "Picture tools" },
-      this.#layout_control, this.#kind_control, this.#pair_control, this.#readout,
-      this.#size_control, el("div", { class: "zoom-control" },
+    this.#layout_control = segmented(
+      "Layout",
+      [
+        ["grid", "Side by side"],
+        ["slider", "Slider"],
+      ],
+      this.#layout,
+      (layout) => {
+        this.#layout = layout;
+        this.#build();
+      },
+    );
+    return el(
+      "div",
+      { class: "toolbar", role: "group", "aria-label": "Picture tools" },
+      this.#layout_control,
+      this.#kind_control,
+      this.#pair_control,
+      this.#readout,
+      this.#size_control,
+      el(
+        "div",
+        { class: "zoom-control" },
         button("−", "Zoom out", () => this.#viewport.step(-1, first_pane())),
         this.#zoom_label,
         button("+", "Zoom in", () => this.#viewport.step(1, first_pane())),
         button("Fit", "Fit the pictures into the panes", () => this.#viewport.fit()),
-        button("1:1", "1:1, a picture pixel is a screen pixel", () => this.#viewport.zoom_to(1, first_pane()))));
+        button("1:1", "1:1, a picture pixel is a screen pixel", () => this.#viewport.zoom_to(1, first_pane())),
+      ),
+    );
   }
 
   #build() {
@@ -115,7 +166,7 @@ export class ImageViewer {
     this.#size_control.hidden = slider;
     this.#pair_control.hidden = !slider;
     const kind = this.#kinds.find((one) => one.key === this.#kind);
-    this.#note.textContent = slider ? "" : kind.note ?? "";
+    this.#note.textContent = slider ? "" : (kind.note ?? "");
     this.#note.hidden = !this.#note.textContent;
     if (slider) this.#build_slider();
     else this.#build_grid(kind);
@@ -130,22 +181,53 @@ export class ImageViewer {
     const missing = this.#sources.filter((source) => !shown.includes(source));
     this.#stage.className = "stage grid";
     this.#stage.dataset.size = this.#pane_size;
-    set_children(this.#stage, shown.map((source) => this.#figure(source, shown_kind(source), kind)));
-    set_children(this.#missing, missing.map((source) => el("li", {}, el("strong", {}, source.label), ` has no picture: ` +
-      (source.missing || `it has no ${kind.label} picture`))));
+    set_children(
+      this.#stage,
+      shown.map((source) => this.#figure(source, shown_kind(source), kind)),
+    );
+    set_children(
+      this.#missing,
+      missing.map((source) =>
+        el(
+          "li",
+          {},
+          el("strong", {}, source.label),
+          ` has no ${kind.label} picture`,
+          source.missing ? `: ${source.missing}` : "",
+        ),
+      ),
+    );
   }
 
   #figure(source, shown, asked) {
     const value = el("span", { class: "pane-value" });
     const slide = `Slide between the reference and ${source.label}`;
-    const caption = el("figcaption", {},
+    const caption = el(
+      "figcaption",
+      {},
       el("span", { class: "pane-name", title: source.title }, source.label),
-      shown === asked ? null : el("span", { class: "muted" }, shown.label.toLowerCase()), value,
-      source.reference ? null : el("button", {
-        type: "button", class: "quiet small", title: slide, "aria-label": slide, onclick: () => this.#slide_to(source),
-      }, "Slide"));
+      shown === asked ? null : el("span", { class: "muted" }, shown.label.toLowerCase()),
+      value,
+      source.reference
+        ? null
+        : el(
+            "button",
+            {
+              type: "button",
+              class: "quiet small",
+              title: slide,
+              "aria-label": slide,
+              onclick: () => this.#slide_to(source),
+            },
+            "Slide",
+          ),
+    );
     const alt = `${source.label}: ${shown.label}`;
-    const pane = new PicturePane(this.#viewport, { label: alt, hint_id: this.#hint_id, on_resize: () => this.#show_zoom() });
+    const pane = new PicturePane(this.#viewport, {
+      label: alt,
+      hint_id: this.#hint_id,
+      on_resize: () => this.#show_zoom(),
+    });
     this.#set_shape(pane.element);
     pane.show({ url: source.pictures[shown.key], alt });
     this.#panes.push({ pane, values: [value] });
@@ -157,8 +239,12 @@ export class ImageViewer {
     const chosen = this.#pair.map((value) => options.find((option) => option.value === value));
     const values = [el("span", { class: "pane-value" }), el("span", { class: "pane-value" })];
     const pane = new PicturePane(this.#viewport, {
-      label: `${chosen[0].label} left of the line, ${chosen[1].label} right of it`, hint_id: this.#hint_id,
-      on_resize: () => this.#show_zoom(), on_split: (fraction) => { this.#split = fraction; },
+      label: `${chosen[0].label} left of the line, ${chosen[1].label} right of it`,
+      hint_id: this.#hint_id,
+      on_resize: () => this.#show_zoom(),
+      on_split: (fraction) => {
+        this.#split = fraction;
+      },
     });
     pane.element.classList.add("sliding");
     this.#set_shape(pane.element);
@@ -167,10 +253,17 @@ export class ImageViewer {
     this.#panes = [{ pane, values }];
     this.#missing.replaceChildren();
     this.#stage.className = "stage slider";
-    const figure = el("figure", { class: "pane" }, pane.element,
-      el("figcaption", {},
+    const figure = el(
+      "figure",
+      { class: "pane" },
+      pane.element,
+      el(
+        "figcaption",
+        {},
         el("span", { class: "side" }, el("span", { class: "pane-name" }, chosen[0].label), values[0]),
-        el("span", { class: "side right" }, values[1], el("span", { class: "pane-name" }, chosen[1].label))));
+        el("span", { class: "side right" }, values[1], el("span", { class: "pane-name" }, chosen[1].label)),
+      ),
+    );
     figure.style.maxWidth = `${this.#slider_width()}px`;
     set_children(this.#stage, figure);
     this.#build_pair_control(options);
@@ -184,18 +277,42 @@ export class ImageViewer {
   }
 
   #build_pair_control(options) {
-    const groups = this.#sources.map((source) => ({
-      label: source.label,
-      choices: options.filter((option) => option.source === source).map((option) => [option.value, option.label]),
-    })).filter((group) => group.choices.length > 0);
-    const choose = (side, label) => select({
-      "aria-label": label,
-      onchange: (event) => { this.#pair[side] = event.target.value; this.#build(); },
-    }, groups, this.#pair[side]);
-    set_children(this.#pair_control, choose(0, "Left picture"),
-      el("button", { type: "button", title: "Swap the two pictures", "aria-label": "Swap the two pictures",
-                     onclick: () => { this.#pair.reverse(); this.#build(); } }, "⇄"),
-      choose(1, "Right picture"));
+    const groups = this.#sources
+      .map((source) => ({
+        label: source.label,
+        choices: options.filter((option) => option.source === source).map((option) => [option.value, option.label]),
+      }))
+      .filter((group) => group.choices.length > 0);
+    const choose = (side, label) =>
+      select(
+        {
+          "aria-label": label,
+          onchange: (event) => {
+            this.#pair[side] = event.target.value;
+            this.#build();
+          },
+        },
+        groups,
+        this.#pair[side],
+      );
+    set_children(
+      this.#pair_control,
+      choose(0, "Left picture"),
+      el(
+        "button",
+        {
+          type: "button",
+          title: "Swap the two pictures",
+          "aria-label": "Swap the two pictures",
+          onclick: () => {
+            this.#pair.reverse();
+            this.#build();
+          },
+        },
+        "⇄",
+      ),
+      choose(1, "Right picture"),
+    );
   }
 
   #slide_to(source) {
@@ -237,15 +354,19 @@ export class ImageViewer {
   #cursor_text([x, y]) {
     const [a, b] = this.#panes[0].pane.read(x, y);
     const channels = a && b ? (a[3] === 255 && b[3] === 255 ? [0, 1, 2] : [0, 1, 2, 3]) : [];
-    const difference = channels.map((channel) => a[channel] - b[channel]).join(" ").replaceAll("-", "−");
+    const difference = channels
+      .map((channel) => a[channel] - b[channel])
+      .join(" ")
+      .replaceAll("-", "−");
     return `x ${x}, y ${y}${difference ? ` · left − right ${difference}` : ""}`;
   }
 
   #announce() {
     const cursor = this.#viewport.cursor;
     if (!cursor) return;
-    const values = this.#panes.flatMap(({ pane }) => pane.read(...cursor).map((value) =>
-      `${pane.element.getAttribute("aria-label")} ${value_text(value)}`));
+    const values = this.#panes.flatMap(({ pane }) =>
+      pane.read(...cursor).map((value) => `${pane.element.getAttribute("aria-label")} ${value_text(value)}`),
+    );
     this.#announcer.textContent = `Pixel ${cursor.join(", ")}: ${values.join("; ")}`;
   }
 }

@@ -5,7 +5,11 @@ import { pointer_of } from "./spec_model.js";
 
 const LONG_TEXT_BYTES = 200;
 const LONG_HINT = 90;
-const LETTERS = { rect: ["x0", "y0", "x1", "y1"], color: ["red", "green", "blue"], background: ["red", "green", "blue"] };
+const LETTERS = {
+  rect: ["x0", "y0", "x1", "y1"],
+  color: ["red", "green", "blue"],
+  background: ["red", "green", "blue"],
+};
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
@@ -20,17 +24,25 @@ function range_text(param) {
 
 /** A labelled field with room for its hint and its error. */
 export function field_frame(param, path, control, { for_id, group = false } = {}) {
-  const caption = [words(param.name), param.unit ? el("span", { class: "unit" }, param.unit) : null];
+  const suffix = param.unit ? `_${param.unit.toLowerCase()}` : "";
+  const name = suffix && param.name.endsWith(suffix) ? param.name.slice(0, -suffix.length) : param.name;
+  const caption = [words(name), param.unit ? el("span", { class: "unit" }, param.unit) : null];
   const hint_text = [param.summary, range_text(param)].filter(Boolean).join("; ");
   const hint_id = unique_id("hint");
   const error_id = unique_id("error");
-  const targets = control.matches("input, select, textarea") ? [control] : [...control.querySelectorAll("input, select, textarea")];
+  const targets = control.matches("input, select, textarea")
+    ? [control]
+    : [...control.querySelectorAll("input, select, textarea")];
   for (const target of targets) target.setAttribute("aria-describedby", `${hint_id} ${error_id}`);
   const hint = el("p", { class: "hint", id: hint_id }, hint_text);
   const wide = hint_text.length > LONG_HINT ? " wide" : "";
-  return el(group ? "fieldset" : "div", { class: `field kind-${param.kind}${wide}`, "data-pointer": pointer_of(path) },
+  return el(
+    group ? "fieldset" : "div",
+    { class: `field kind-${param.kind}${wide}`, "data-pointer": pointer_of(path) },
     group ? el("legend", {}, caption) : el("label", { for: for_id }, caption),
-    param.fields ? [hint, control] : [control, hint], el("p", { class: "error-text", id: error_id, hidden: true }));
+    param.fields ? [hint, control] : [control, hint],
+    el("p", { class: "error-text", id: error_id, hidden: true }),
+  );
 }
 
 /** Takes the value out of the spec where it is the default. */
@@ -41,8 +53,15 @@ function store(model, path, param, value) {
 
 function number_input(param, value, on_change, label = null, id = null) {
   const input = el("input", {
-    type: "number", id, "aria-label": label, step: param.kind === "integer" ? 1 : "any", min: param.min, max: param.max,
-    inputmode: param.kind === "integer" ? "numeric" : "decimal", value: value ?? "", required: param.required,
+    type: "number",
+    id,
+    "aria-label": label,
+    step: param.kind === "integer" ? 1 : "any",
+    min: param.min,
+    max: param.max,
+    inputmode: param.kind === "integer" ? "numeric" : "decimal",
+    value: value ?? "",
+    required: param.required,
     oninput: () => on_change(input.value === "" ? undefined : Number(input.value)),
   });
   return input;
@@ -50,14 +69,24 @@ function number_input(param, value, on_change, label = null, id = null) {
 
 function number_field(param, path, model) {
   const id = unique_id("field");
-  const input = number_input(param, model.get(path) ?? param.default, (value) => store(model, path, param, value), null, id);
+  const input = number_input(
+    param,
+    model.get(path) ?? param.default,
+    (value) => store(model, path, param, value),
+    null,
+    id,
+  );
   return field_frame(param, path, input, { for_id: id });
 }
 
 function boolean_field(param, path, model) {
   const id = unique_id("field");
-  const input = el("input", { type: "checkbox", id, checked: Boolean(model.get(path) ?? param.default),
-                              onchange: () => store(model, path, param, input.checked) });
+  const input = el("input", {
+    type: "checkbox",
+    id,
+    checked: Boolean(model.get(path) ?? param.default),
+    onchange: () => store(model, path, param, input.checked),
+  });
   return field_frame(param, path, input, { for_id: id });
 }
 
@@ -65,21 +94,37 @@ function choice_field(param, path, model) {
   const id = unique_id("field");
   const current = model.get(path) ?? param.default;
   const choices = param.choices.includes(current) ? param.choices : [...param.choices, String(current)];
-  const input = select({ id, onchange: () => store(model, path, param, input.value) },
-                       choices.map((choice) => [choice, choice]), current);
+  const input = select(
+    { id, onchange: () => store(model, path, param, input.value) },
+    choices.map((choice) => [choice, choice]),
+    current,
+  );
   return field_frame(param, path, input, { for_id: id });
 }
 
 function text_field(param, path, model) {
   const id = unique_id("field");
   const long = (param.max_length ?? 0) > LONG_TEXT_BYTES;
-  const input = el(long ? "textarea" : "input", { id, type: long ? null : "text", spellcheck: "false",
-    value: model.get(path) ?? param.default ?? "", placeholder: param.placeholder,
-    oninput: () => store(model, path, param, input.value === "" && !param.required ? undefined : input.value) });
+  const input = el(long ? "textarea" : "input", {
+    id,
+    type: long ? null : "text",
+    spellcheck: "false",
+    value: model.get(path) ?? param.default ?? "",
+    placeholder: param.placeholder,
+    oninput: () => store(model, path, param, input.value === "" && !param.required ? undefined : input.value),
+  });
   return field_frame(param, path, input, { for_id: id });
 }
 
-const to_hex = (rgb) => "#" + rgb.map((part) => Math.round(Math.min(1, Math.max(0, part ?? 0)) * 255).toString(16).padStart(2, "0")).join("");
+const to_hex = (rgb) =>
+  "#" +
+  rgb
+    .map((part) =>
+      Math.round(Math.min(1, Math.max(0, part ?? 0)) * 255)
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("");
 const from_hex = (hex) => [1, 3, 5].map((at) => Number((parseInt(hex.slice(at, at + 2), 16) / 255).toFixed(4)));
 
 function numbers_field(param, path, model) {
@@ -95,15 +140,28 @@ function numbers_field(param, path, model) {
     if (picker) picker.value = to_hex(next);
   };
   const inputs = letters.map((letter, index) =>
-    number_input({ ...param, kind: "number" }, value()[index], (part) => change(index, part), `${words(param.name)} ${letter}`));
-  const picker = letters[0] === "red" ? el("input", {
-    type: "color", "aria-label": `${words(param.name)} picker`, value: to_hex(value()),
-    oninput: () => {
-      const next = from_hex(picker.value);
-      inputs.forEach((input, index) => { input.value = next[index]; });
-      store(model, path, param, next);
-    },
-  }) : null;
+    number_input(
+      { ...param, kind: "number" },
+      value()[index],
+      (part) => change(index, part),
+      `${words(param.name)} ${letter}`,
+    ),
+  );
+  const picker =
+    letters[0] === "red"
+      ? el("input", {
+          type: "color",
+          "aria-label": `${words(param.name)} picker`,
+          value: to_hex(value()),
+          oninput: () => {
+            const next = from_hex(picker.value);
+            inputs.forEach((input, index) => {
+              input.value = next[index];
+            });
+            store(model, path, param, next);
+          },
+        })
+      : null;
   return field_frame(param, path, el("div", { class: "numbers" }, inputs, picker), { group: true });
 }
 
@@ -134,21 +192,44 @@ function list_field(param, path, model) {
     draw();
   };
   const button = (text, label, action, disabled = false) =>
-    el("button", { type: "button", class: "quiet small", "aria-label": label, title: label, disabled, onclick: action }, text);
-  const draw = () => set_children(rows, entries().map((_, index) => {
-    const name = `${words(param.name)} ${index + 1}`;
-    const fields = fields_of(param.fields ?? [], [...path, index], model);
-    fields.setAttribute("role", "group");
-    fields.setAttribute("aria-label", name);
-    return el("li", { "data-pointer": pointer_of([...path, index]) }, fields,
-      el("div", { class: "row-buttons" },
-        button("Copy", `Duplicate ${name}`, () => put(entries().toSpliced(index, 0, structuredClone(entries()[index])))),
-        button("✕", `Remove ${name}`, () => put(entries().toSpliced(index, 1)), entries().length <= (param.min_length ?? 0))),
-      el("p", { class: "error-text", hidden: true }));
-  }));
+    el(
+      "button",
+      { type: "button", class: "quiet small", "aria-label": label, title: label, disabled, onclick: action },
+      text,
+    );
+  const draw = () =>
+    set_children(
+      rows,
+      entries().map((_, index) => {
+        const name = `${words(param.name)} ${index + 1}`;
+        const fields = fields_of(param.fields ?? [], [...path, index], model);
+        fields.setAttribute("role", "group");
+        fields.setAttribute("aria-label", name);
+        return el(
+          "li",
+          { "data-pointer": pointer_of([...path, index]) },
+          fields,
+          el(
+            "div",
+            { class: "row-buttons" },
+            button("Copy", `Copy ${name}`, () => put(entries().toSpliced(index, 0, structuredClone(entries()[index])))),
+            button(
+              "✕",
+              `Remove ${name}`,
+              () => put(entries().toSpliced(index, 1)),
+              entries().length <= (param.min_length ?? 0),
+            ),
+          ),
+          el("p", { class: "error-text", hidden: true }),
+        );
+      }),
+    );
   draw();
-  const add = el("button", { type: "button", class: "small", onclick: () => put([...entries(), new_entry(param.fields ?? [])]) },
-                 `Add to ${words(param.name).toLowerCase()}`);
+  const add = el(
+    "button",
+    { type: "button", class: "small", onclick: () => put([...entries(), new_entry(param.fields ?? [])]) },
+    `Add to ${words(param.name).toLowerCase()}`,
+  );
   return field_frame(param, path, el("div", {}, rows, add), { group: true });
 }
 
@@ -156,7 +237,11 @@ function list_field(param, path, model) {
 function any_field(param, path, model) {
   const id = unique_id("field");
   const value = model.get(path) ?? param.default;
-  const input = el("textarea", { id, spellcheck: "false", rows: "2", value: typeof value === "string" ? value : JSON.stringify(value),
+  const input = el("textarea", {
+    id,
+    spellcheck: "false",
+    rows: "2",
+    value: typeof value === "string" ? value : JSON.stringify(value),
     oninput: () => {
       let read = input.value;
       try {
@@ -165,15 +250,28 @@ function any_field(param, path, model) {
         // A word without quotes means itself.
       }
       store(model, path, param, input.value === "" ? undefined : read);
-    } });
+    },
+  });
   return field_frame(param, path, input, { for_id: id });
 }
 
-const FIELDS = { number: number_field, integer: number_field, boolean: boolean_field, choice: choice_field, text: text_field,
-                 numbers: numbers_field, object: object_field, list: list_field, any: any_field };
+const FIELDS = {
+  number: number_field,
+  integer: number_field,
+  boolean: boolean_field,
+  choice: choice_field,
+  text: text_field,
+  numbers: numbers_field,
+  object: object_field,
+  list: list_field,
+  any: any_field,
+};
 
 /** The fields of an object that lies at `path` of the spec. */
 export function fields_of(params, path, model) {
-  return el("div", { class: "fields" }, params.map((param) =>
-    (FIELDS[param.kind] ?? any_field)(param, [...path, param.name], model)));
+  return el(
+    "div",
+    { class: "fields" },
+    params.map((param) => (FIELDS[param.kind] ?? any_field)(param, [...path, param.name], model)),
+  );
 }

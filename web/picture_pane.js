@@ -27,8 +27,14 @@ export class PicturePane {
   constructor(viewport, { label, hint_id, on_split = () => {}, on_resize = () => {} }) {
     this.#viewport = viewport;
     this.on_split = on_split;
-    this.#view = el("div", { class: "pane-view", tabindex: "0", role: "group", "aria-label": label,
-                             "aria-describedby": hint_id, "aria-roledescription": "picture viewer" });
+    this.#view = el("div", {
+      class: "pane-view",
+      tabindex: "0",
+      role: "group",
+      "aria-label": label,
+      "aria-describedby": hint_id,
+      "aria-roledescription": "picture viewer",
+    });
     this.element = this.#view;
     this.#listen();
     this.resize_observer = new ResizeObserver(() => {
@@ -44,22 +50,32 @@ export class PicturePane {
       const image = picture(url, alt, this.#viewport);
       return { image, reader: new PixelReader(image), frame: el("div", { class: "picture" }, image) };
     });
-    this.#divider = sources.length > 1 ? this.#divider ?? this.#make_divider() : null;
-    this.#view.replaceChildren(...this.#pictures.map((shown) => shown.frame), this.#mark,
-                               ...(this.#divider ? [this.#divider] : []));
+    this.#divider = sources.length > 1 ? (this.#divider ?? this.#make_divider()) : null;
+    this.#view.replaceChildren(
+      ...this.#pictures.map((shown) => shown.frame),
+      this.#mark,
+      ...(this.#divider ? [this.#divider] : []),
+    );
     this.refresh();
   }
 
-  get size() { return { width: this.#view.clientWidth, height: this.#view.clientHeight }; }
-  get zoom() { return this.#viewport.zoom_in(this.size.width, this.size.height); }
+  get size() {
+    return { width: this.#view.clientWidth, height: this.#view.clientHeight };
+  }
+  get zoom() {
+    return this.#viewport.zoom_in(this.size.width, this.size.height);
+  }
 
   /** Values of the pixel in every picture of the pane, null where they are not loaded. */
-  read(x, y) { return this.#pictures.map((shown) => shown.reader.read(x, y)); }
+  read(x, y) {
+    return this.#pictures.map((shown) => shown.reader.read(x, y));
+  }
 
   refresh() {
     const { width, height } = this.size;
     if (width === 0 || height === 0) return;
-    const { scale, left, top } = this.#viewport.place(width, height);
+    const corner = this.#view.getBoundingClientRect();
+    const { scale, left, top } = this.#viewport.place(width, height, corner.left, corner.top);
     const [columns, rows] = this.#viewport.size;
     const pixelated = scale * (window.devicePixelRatio || 1) >= 1;
     for (const { image } of this.#pictures) {
@@ -72,7 +88,9 @@ export class PicturePane {
     this.#place_divider();
   }
 
-  get split() { return this.#split; }
+  get split() {
+    return this.#split;
+  }
   set split(fraction) {
     this.#split = Math.min(1, Math.max(0, fraction));
     this.#place_divider();
@@ -101,8 +119,14 @@ export class PicturePane {
   #make_divider() {
     const moves = { ArrowLeft: -0.01, ArrowRight: 0.01, ArrowDown: -0.01, ArrowUp: 0.01, PageDown: -0.1, PageUp: 0.1 };
     const divider = el("div", {
-      class: "divider", role: "slider", tabindex: "0", "aria-label": "Line between the two pictures",
-      "aria-valuemin": "0", "aria-valuemax": "100", "aria-valuenow": "50", "aria-orientation": "horizontal",
+      class: "divider",
+      role: "slider",
+      tabindex: "0",
+      "aria-label": "Line between the two pictures",
+      "aria-valuemin": "0",
+      "aria-valuemax": "100",
+      "aria-valuenow": "50",
+      "aria-orientation": "horizontal",
       onkeydown: (event) => {
         if (event.key in moves) this.split += moves[event.key];
         else if (event.key === "Home" || event.key === "End") this.split = event.key === "Home" ? 0 : 1;
@@ -125,7 +149,7 @@ export class PicturePane {
 
   #pixel_at(event) {
     const box = this.#view.getBoundingClientRect();
-    const { scale, left, top } = this.#viewport.place(box.width, box.height);
+    const { scale, left, top } = this.#viewport.place(box.width, box.height, box.left, box.top);
     return [(event.clientX - box.left - left) / scale, (event.clientY - box.top - top) / scale];
   }
 
@@ -144,18 +168,25 @@ export class PicturePane {
       }
       this.#viewport.set_cursor(this.#pixel_at(event).map(Math.floor));
     });
-    for (const end of ["pointerup", "pointercancel"]) view.addEventListener(end, () => { this.#drag = null; });
+    for (const end of ["pointerup", "pointercancel"])
+      view.addEventListener(end, () => {
+        this.#drag = null;
+      });
     view.addEventListener("pointerleave", () => this.#viewport.set_cursor(null));
     view.addEventListener("dblclick", (event) => {
       if (!this.#viewport.fits) this.#viewport.fit();
       else this.#viewport.zoom_to(INSPECT_ZOOM, this.size, ...this.#pixel_at(event));
     });
-    view.addEventListener("wheel", (event) => {
-      // The wheel scrolls the page unless the user has turned to the picture.
-      if (!event.ctrlKey && !event.metaKey && document.activeElement !== view) return;
-      event.preventDefault();
-      this.#viewport.step(event.deltaY < 0 ? 1 : -1, this.size, ...this.#pixel_at(event));
-    }, { passive: false });
+    view.addEventListener(
+      "wheel",
+      (event) => {
+        // The wheel scrolls the page unless the user has turned to the picture.
+        if (!event.ctrlKey && !event.metaKey && document.activeElement !== view) return;
+        event.preventDefault();
+        this.#viewport.step(event.deltaY < 0 ? 1 : -1, this.size, ...this.#pixel_at(event));
+      },
+      { passive: false },
+    );
     view.addEventListener("keydown", (event) => this.#key(event));
   }
 

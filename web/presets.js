@@ -21,7 +21,10 @@ export const PRESETS = [
       scene: { type: "quads", distribution: "random", count: 1024, shading: "4x4-textures" },
       methods: ["b2f", "f2b", { id: "f2bd", threshold: 0.01, label: "F2BD 0.01" }, "f2bx"],
       baseline: "b2f",
-      checks: [{ metric: "flip.mean", method: "F2BD 0.01", max: 0.05 }, { metric: "speedup", method: "F2BD 0.01", min: 1.2 }],
+      checks: [
+        { metric: "flip.mean", method: "F2BD 0.01", max: 0.05 },
+        { metric: "speedup", method: "F2BD 0.01", min: 1.2 },
+      ],
     },
   },
   {
@@ -50,12 +53,14 @@ const id_of = (method) => (typeof method === "string" ? method : method.id);
 /** Those that this service can render, without the methods that it lacks. */
 export function presets_for(methods, scenes) {
   const known = new Set(methods.map((method) => method.id));
-  return PRESETS.filter((preset) => scenes.some((scene) => scene.id === preset.spec.scene.type)).map((preset) => {
-    const kept = preset.spec.methods.filter((method) => known.has(id_of(method)));
-    const names = new Set(kept.map((method) => method.label ?? id_of(method)));
-    const checks = preset.spec.checks?.filter((check) => names.has(check.method));
-    const spec = { ...preset.spec, methods: kept, ...(checks?.length ? { checks } : {}) };
-    if (!names.has(spec.baseline)) delete spec.baseline;
-    return { ...preset, spec };
-  }).filter((preset) => preset.spec.methods.length > 0);
+  return PRESETS.filter((preset) => scenes.some((scene) => scene.id === preset.spec.scene.type))
+    .map((preset) => {
+      const kept = preset.spec.methods.filter((method) => known.has(id_of(method)));
+      const names = new Set(kept.map((method) => method.label ?? id_of(method)));
+      const checks = preset.spec.checks?.filter((check) => names.has(check.method));
+      const spec = { ...preset.spec, methods: kept, ...(checks?.length ? { checks } : {}) };
+      if (!names.has(spec.baseline)) delete spec.baseline;
+      return { ...preset, spec };
+    })
+    .filter((preset) => preset.spec.methods.length > 0);
 }

@@ -12,30 +12,55 @@ function is_shown(image) {
 }
 
 function kinds_of(run, metrics) {
-  const keys = new Set(run.results.flatMap((result) =>
-    Object.entries(result.images ?? {}).filter(([, image]) => is_shown(image)).map(([key]) => key)));
+  const keys = new Set(
+    run.results.flatMap((result) =>
+      Object.entries(result.images ?? {})
+        .filter(([, image]) => is_shown(image))
+        .map(([key]) => key),
+    ),
+  );
   keys.add("color");
   const rank = (key) => (KIND_ORDER.includes(key) ? KIND_ORDER.indexOf(key) : KIND_ORDER.length);
-  return [...keys].sort((a, b) => rank(a) - rank(b)).map((key) => ({
-    key, label: KIND_LABELS[key] ?? words(key), note: metrics.find((metric) => metric.picture === key)?.summary,
-  }));
+  return [...keys]
+    .sort((a, b) => rank(a) - rank(b))
+    .map((key) => ({
+      key,
+      label: KIND_LABELS[key] ?? words(key),
+      note: metrics.find((metric) => metric.picture === key)?.summary,
+    }));
 }
 
 function pictures_of(images, picture_url) {
-  return Object.fromEntries(Object.entries(images ?? {}).filter(([, image]) => is_shown(image))
-    .map(([key, image]) => [key, picture_url(image)]).filter(([, url]) => url));
+  return Object.fromEntries(
+    Object.entries(images ?? {})
+      .filter(([, image]) => is_shown(image))
+      .map(([key, image]) => [key, picture_url(image)])
+      .filter(([, url]) => url),
+  );
 }
 
 function sources_of(run, picture_url) {
   const reference = {
-    key: "reference", label: "Reference", reference: true, title: run.reference?.method,
-    pictures: pictures_of(run.reference?.images, picture_url), missing: "The report has no reference picture",
+    key: "reference",
+    label: "Reference",
+    reference: true,
+    title: run.reference?.method,
+    pictures: pictures_of(run.reference?.images, picture_url),
+    missing: "The report has no reference picture",
   };
-  return [reference, ...run.results.map((result, index) => ({
-    key: `result-${index}`, label: result.label, title: result.method,
-    pictures: pictures_of(result.images, picture_url),
-    missing: result.status === "ok" ? "" : `${words(result.status)}: ${result.reason ?? "no reason given"}`,
-  }))];
+  return [
+    reference,
+    ...run.results.map((result, index) => ({
+      key: `result-${index}`,
+      label: result.label,
+      title: result.method,
+      pictures: pictures_of(result.images, picture_url),
+      missing:
+        result.status === "ok"
+          ? (result.metrics_reason ?? "")
+          : `${words(result.status)}: ${result.reason ?? "no reason given"}`,
+    })),
+  ];
 }
 
 /** What was rendered, in one line. */
@@ -43,120 +68,203 @@ export function scene_text(scene) {
   if (!scene) return "";
   const { type, layers, ...rest } = scene;
   const facts = Object.entries(rest).map(([name, value]) =>
-    (typeof value === "object" && value !== null ? short_value(value) : `${name} ${short_value(value)}`));
+    typeof value === "object" && value !== null ? short_value(value) : `${name} ${short_value(value)}`,
+  );
   if (Array.isArray(layers)) facts.unshift(layers.length === 1 ? "1 layer" : `${layers.length} layers`);
   return [type, ...facts].join(" · ");
 }
 
 function facts(entries) {
-  return el("dl", { class: "facts" }, entries.filter(([, value]) => value)
-    .map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))));
+  return el(
+    "dl",
+    { class: "facts" },
+    entries.filter(([, value]) => value).map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))),
+  );
 }
 
 function reference_text(run) {
   const residuals = Object.entries(run.reference?.residual ?? {}).filter(([, value]) => is_number(value));
   const unknown = run.reference?.residual_reason;
-  return [run.reference?.method, ...residuals.map(([name, value]) =>
-    `differs from ${name} by at most ${value.toPrecision(2)}`), unknown ? `residual not measured: ${unknown}` : null]
-    .filter(Boolean).join(", ");
+  return [
+    run.reference?.method,
+    ...residuals.map(([name, value]) =>
+      value === 0 ? `agrees exactly with ${name}` : `differs from ${name} by at most ${value.toPrecision(2)}`,
+    ),
+    unknown ? `residual not measured: ${unknown}` : null,
+  ]
+    .filter(Boolean)
+    .join(", ");
 }
 
 function header(report) {
   const { spec = {}, device = {}, verdict } = report;
   const image = spec.image ?? {};
   const tags = Object.entries(spec.tags ?? {});
-  return el("header", { class: "report-head" },
-    el("div", { class: "title-line" },
+  return el(
+    "header",
+    { class: "report-head" },
+    el(
+      "div",
+      { class: "title-line" },
       el("h1", {}, spec.title || "Untitled comparison"),
       verdict && verdict !== "none" ? el("span", { class: `verdict ${verdict}` }, `Checks ${verdict}`) : null,
-      tags.map(([name, value]) => el("span", { class: "chip tag" }, `${name}: ${short_value(value)}`))),
+      tags.map(([name, value]) => el("span", { class: "chip tag" }, `${name}: ${short_value(value)}`)),
+    ),
     facts([
       ["Scene", scene_text(spec.scene)],
       ["Image", image.width ? `${image.width} × ${image.height} px, ${image.format}` : ""],
       ["Reference", reference_text(report.runs?.[0] ?? {})],
       ["Device", [device.renderer, device.context].filter(Boolean).join(", ")],
       ["Done", when(report.finished_at)],
-    ]));
+    ]),
+  );
 }
 
 function software_notice(device) {
   if (!device?.software) return null;
-  return el("p", { class: "notice warning", role: "note" },
-    el("strong", {}, "Software rasteriser. "), "Times on a software rasteriser do not predict a GPU.");
+  return el(
+    "p",
+    { class: "notice warning", role: "note" },
+    el("strong", {}, "Software rasteriser. "),
+    "Times on a software rasteriser do not predict a GPU.",
+  );
 }
 
 function bound_text(check) {
-  const bounds = [is_number(check.min) ? `at least ${check.min}` : null, is_number(check.max) ? `at most ${check.max}` : null];
+  const bounds = [
+    is_number(check.min) ? `at least ${check.min}` : null,
+    is_number(check.max) ? `at most ${check.max}` : null,
+  ];
   return bounds.filter(Boolean).join(" and ");
 }
 
 function checks_list(report) {
   const checks = report.checks ?? [];
   if (checks.length === 0) return null;
-  const asked = (check) => report.spec?.checks?.find((one) => one.metric === check.metric && one.method === check.method);
-  return el("section", { class: "checks", "aria-label": "Checks" }, el("h2", {}, "Checks"),
-    el("ul", {}, checks.map((check) => {
-      const point = Object.entries(check.at ?? {}).map(([name, value]) => `${name} ${short_value(value)}`).join(", ");
-      return el("li", { class: check.passed ? "passed" : "failed" },
-        el("span", { class: "check-mark" }, check.passed ? "✓ passed" : "✗ failed"),
-        el("span", {}, `${check.metric} of ${check.method}${point ? ` at ${point}` : ""}`),
-        el("span", { class: "muted" }, `${bound_text({ ...asked(check), ...check })}; is ` +
-          (is_number(check.value) ? fixed(check.value, 4) : check.reason ?? "not measured")));
-    })));
+  const asked = (check) =>
+    report.spec?.checks?.find((one) => one.metric === check.metric && one.method === check.method);
+  return el(
+    "section",
+    { class: "checks", "aria-label": "Checks" },
+    el("h2", {}, "Checks"),
+    el(
+      "ul",
+      {},
+      checks.map((check) => {
+        const point = Object.entries(check.at ?? {})
+          .map(([name, value]) => `${name} ${short_value(value)}`)
+          .join(", ");
+        return el(
+          "li",
+          { class: check.passed ? "passed" : "failed" },
+          el("span", { class: "check-mark" }, check.passed ? "✓ passed" : "✗ failed"),
+          el("span", {}, `${check.metric} of ${check.method}${point ? ` at ${point}` : ""}`),
+          el(
+            "span",
+            { class: "muted" },
+            `${bound_text({ ...asked(check), ...check })}; is ` +
+              (is_number(check.value) ? fixed(check.value, 4) : (check.reason ?? "not measured")),
+          ),
+        );
+      }),
+    ),
+  );
 }
 
 function linear_links(run, picture_url) {
   const files = [["Reference", run.reference], ...run.results.map((result) => [result.label, result])]
-    .flatMap(([label, owner]) => Object.entries(owner?.images ?? {}).filter(([, image]) => image?.url && !is_shown(image))
-      .map(([key, image]) => ({ label: `${label} ${key}`, url: picture_url(image) }))).filter((file) => file.url);
+    .flatMap(([label, owner]) =>
+      Object.entries(owner?.images ?? {})
+        .filter(([, image]) => image?.url && !is_shown(image))
+        .map(([key, image]) => ({ label: `${label} ${key}`, url: picture_url(image) })),
+    )
+    .filter((file) => file.url);
   if (files.length === 0) return null;
-  return el("p", { class: "files" }, el("span", { class: "muted" }, "Linear pictures (float): "),
-    files.map((file) => el("a", { href: file.url, download: true }, file.label)));
+  return el(
+    "p",
+    { class: "files" },
+    el("span", { class: "muted" }, "Linear pictures (float): "),
+    files.map((file) => el("a", { href: file.url, download: true }, file.label)),
+  );
 }
 
 function run_part(report, run, options) {
   const { methods, metrics, picture_url } = options;
   const { width, height } = run_size(report, run);
-  const viewer = new ImageViewer({ width_px: width, height_px: height, sources: sources_of(run, picture_url),
-                                   kinds: kinds_of(run, metrics) });
+  const viewer = new ImageViewer({
+    width_px: width,
+    height_px: height,
+    sources: sources_of(run, picture_url),
+    kinds: kinds_of(run, metrics),
+  });
   const context = {
-    methods, metrics, baseline: report.spec?.baseline,
+    methods,
+    metrics,
+    baseline: report.spec?.baseline,
     show_pixel: (x, y) => {
       viewer.show_pixel(x, y);
       const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
       viewer.element.scrollIntoView({ block: "nearest", behavior: calm ? "auto" : "smooth" });
     },
   };
-  return [viewer.element, linear_links(run, picture_url), timing_table(run.results, context),
-          difference_table(run.results, context)];
+  return [
+    viewer.element,
+    linear_links(run, picture_url),
+    timing_table(run.results, context),
+    difference_table(run.results, context),
+  ];
 }
 
 /** A sweep may change the size of the image. */
 function run_size(report, run) {
   const image = report.spec?.image ?? {};
-  return { width: run.point?.["/image/width"] ?? image.width ?? 512, height: run.point?.["/image/height"] ?? image.height ?? 512 };
+  return {
+    width: run.point?.["/image/width"] ?? image.width ?? 512,
+    height: run.point?.["/image/height"] ?? image.height ?? 512,
+  };
 }
 
 function point_select(runs, on_choose) {
-  const name = (run) => Object.entries(run.point ?? {}).map(([key, value]) => `${key} ${short_value(value)}`).join(", ");
-  return el("label", { class: "point-select" }, "Point ",
-    select({ onchange: (event) => on_choose(runs[Number(event.target.value)]) },
-           runs.map((run, index) => [String(index), name(run) || `run ${index + 1}`]), "0"));
+  const name = (run) =>
+    Object.entries(run.point ?? {})
+      .map(([key, value]) => `${key} ${short_value(value)}`)
+      .join(", ");
+  return el(
+    "label",
+    { class: "point-select" },
+    "Point ",
+    select(
+      { onchange: (event) => on_choose(runs[Number(event.target.value)]) },
+      runs.map((run, index) => [String(index), name(run) || `run ${index + 1}`]),
+      "0",
+    ),
+  );
 }
 
 function origin(report) {
   const { device = {}, provenance = {} } = report;
   const rows = [
-    ["Renderer", device.renderer], ["Vendor", device.vendor], ["OpenGL", device.gl_version],
-    ["Context", device.context], ["CPU", device.cpu],
+    ["Renderer", device.renderer],
+    ["Vendor", device.vendor],
+    ["OpenGL", device.gl_version],
+    ["Context", device.context],
+    ["CPU", device.cpu],
     ["Workarounds", (device.workarounds ?? []).join(", ") || "none"],
     ["Version", [provenance.version, provenance.commit].filter(Boolean).join(" ")],
-    ["Rerun", provenance.rerun], ["Spec SHA-256", report.spec_sha256],
+    ["Rerun", provenance.rerun],
+    ["Spec SHA-256", report.spec_sha256],
   ];
-  return el("div", { class: "details-row" },
+  return el(
+    "div",
+    { class: "details-row" },
     el("details", {}, el("summary", {}, "Device and origin"), facts(rows)),
-    el("details", {}, el("summary", {}, "Spec"),
-      el("pre", { tabindex: "0", "aria-label": "Spec as JSON" }, JSON.stringify(report.spec, null, 2))));
+    el(
+      "details",
+      {},
+      el("summary", {}, "Spec"),
+      el("pre", { tabindex: "0", "aria-label": "Spec as JSON" }, JSON.stringify(report.spec, null, 2)),
+    ),
+  );
 }
 
 /**
@@ -169,17 +277,21 @@ export function report_view(report, { picture_url, methods = [], metrics = [], a
   const place = el("div", { class: "run" });
   const show = (run) => set_children(place, run_part(report, run, options));
   if (runs.length > 0) show(runs[0]);
-  return el("article", { class: "report", "aria-label": "Report" },
+  return el(
+    "article",
+    { class: "report", "aria-label": "Report" },
     header(report),
     actions.length > 0 ? el("div", { class: "actions" }, actions) : null,
     software_notice(report.device),
     report.error ? el("p", { class: "notice error", role: "alert" }, error_text(report.error)) : null,
     checks_list(report),
     runs.length > 1 ? point_select(runs, show) : null,
-    place, origin(report));
+    place,
+    origin(report),
+  );
 }
 
 /** The report's `error`, a text or a problem. */
 export function error_text(error) {
-  return typeof error === "string" ? error : error?.detail ?? error?.title ?? error?.message ?? "Rendering failed";
+  return typeof error === "string" ? error : (error?.detail ?? error?.title ?? error?.message ?? "Rendering failed");
 }

@@ -1,7 +1,14 @@
 // The two tables of a run: times, and differences from the reference. One row a result, in the order of the spec.
 import { append, el } from "./dom.js";
-import { best_results, column_title, DIFFERENCE_COLUMNS, missing_reason, SPEEDUP_COLUMN, TIMING_COLUMNS, value_at }
-  from "./columns.js";
+import {
+  best_results,
+  column_title,
+  DIFFERENCE_COLUMNS,
+  missing_reason,
+  SPEEDUP_COLUMN,
+  TIMING_COLUMNS,
+  value_at,
+} from "./columns.js";
 import { column_decimals, DASH, fixed, integer, is_number, short_value } from "./format.js";
 import { axis_end, timing_samples, timing_strip } from "./timing_strip.js";
 
@@ -9,17 +16,29 @@ import { axis_end, timing_samples, timing_strip } from "./timing_strip.js";
 export function method_cell(result, context) {
   const info = context.methods.find((method) => method.id === result.method);
   const parameters = Object.entries(result.parameters ?? {});
-  const described = parameters.map(([name, value]) => `${name} ${short_value(value)}`).join(", ");
-  return el("th", { scope: "row" },
+  const is_default = ([name, value]) =>
+    JSON.stringify(info?.parameters?.find((param) => param.name === name)?.default) === JSON.stringify(value);
+  const text = (entries) => entries.map(([name, value]) => `${name} ${short_value(value)}`).join(", ");
+  return el(
+    "th",
+    { scope: "row" },
     el("span", { class: "label" }, result.label),
     result.label === context.baseline ? el("span", { class: "chip" }, "baseline") : null,
-    el("span", { class: "caption", title: [info?.summary, described].filter(Boolean).join("\n") },
-      [info?.name ?? result.method, described].filter(Boolean).join(" · ")));
+    el(
+      "span",
+      { class: "caption", title: [info?.summary, text(parameters)].filter(Boolean).join("\n") },
+      [info?.name ?? result.method, text(parameters.filter((entry) => !is_default(entry)))].filter(Boolean).join(" · "),
+    ),
+  );
 }
 
 function missing_cell(reason) {
-  return el("td", { class: "number missing", title: reason },
-    el("span", { "aria-hidden": "true" }, DASH), el("span", { class: "visually-hidden" }, `none: ${reason}`));
+  return el(
+    "td",
+    { class: "number missing", title: reason },
+    el("span", { "aria-hidden": "true" }, DASH),
+    el("span", { class: "visually-hidden" }, `none: ${reason}`),
+  );
 }
 
 function number_cell(result, column, decimals, best) {
@@ -31,18 +50,37 @@ function number_cell(result, column, decimals, best) {
     return cell;
   }
   const text = column.whole ? integer(value) : fixed(value, decimals);
-  return el("td", { class: is_best ? "number best" : "number", "data-path": column.path, "data-value": String(value),
-                    title: is_best ? `${value} (best)` : String(value) },
-    text, is_best ? el("span", { class: "visually-hidden" }, " (best)") : null);
+  return el(
+    "td",
+    {
+      class: is_best ? "number best" : "number",
+      "data-path": column.path,
+      "data-value": String(value),
+      title: is_best ? `${value} (best)` : String(value),
+    },
+    text,
+    is_best ? el("span", { class: "visually-hidden" }, " (best)") : null,
+  );
 }
 
 function pixel_cell(result, column, context) {
   const pixel = value_at(result, column.path);
   if (!Array.isArray(pixel)) return missing_cell(missing_reason(result, column));
   const text = pixel.join(", ");
-  return el("td", { class: "number", "data-path": column.path, "data-value": text },
-    el("button", { type: "button", class: "link", "aria-label": `Show pixel ${text} of ${result.label}`,
-                   onclick: () => context.show_pixel(pixel[0], pixel[1], result) }, text));
+  return el(
+    "td",
+    { class: "number", "data-path": column.path, "data-value": text },
+    el(
+      "button",
+      {
+        type: "button",
+        class: "link",
+        "aria-label": `Show pixel ${text} of ${result.label}`,
+        onclick: () => context.show_pixel(pixel[0], pixel[1], result),
+      },
+      text,
+    ),
+  );
 }
 
 function speedup_cell(result, decimals, best) {
@@ -50,19 +88,35 @@ function speedup_cell(result, decimals, best) {
   const { ci95, verdict } = result.speedup ?? {};
   if (!cell.dataset.value) return cell;
   const interval = Array.isArray(ci95) && ci95.every(is_number) ? ci95.map((bound) => fixed(bound, 2)).join("–") : null;
-  return append(cell, el("span", { class: "interval" }, interval,
-    verdict ? el("span", { class: `verdict-word ${verdict.replace(" ", "-")}` }, verdict) : null));
+  return append(
+    cell,
+    el(
+      "span",
+      { class: "interval" },
+      interval,
+      verdict ? el("span", { class: `verdict-word ${verdict.replace(" ", "-")}` }, verdict) : null,
+    ),
+  );
 }
 
 function head_cell(column, metrics) {
-  return el("th", { scope: "col", class: "number", title: column_title(column, metrics) },
-    column.head, column.unit ? el("span", { class: "unit" }, column.unit) : null);
+  return el(
+    "th",
+    { scope: "col", class: "number", title: column_title(column, metrics) },
+    column.head,
+    column.unit ? el("span", { class: "unit" }, column.unit) : null,
+  );
 }
 
 /** Fills the row of a result that has no values with why. */
 function reason_cell(result, span) {
-  return el("td", { class: "reason", colspan: span },
-    el("span", { class: `status ${result.status}` }, result.status), " ", result.reason ?? "no reason given");
+  return el(
+    "td",
+    { class: "reason", colspan: span },
+    el("span", { class: `status ${result.status}` }, result.status),
+    " ",
+    result.reason ?? "no reason given",
+  );
 }
 
 function scroll_box(label, table) {
@@ -70,7 +124,10 @@ function scroll_box(label, table) {
 }
 
 function decimals_of(results, column) {
-  return column_decimals(results.map((result) => value_at(result, column.path)), column.digits);
+  return column_decimals(
+    results.map((result) => value_at(result, column.path)),
+    column.digits,
+  );
 }
 
 /** `context`: {methods, metrics, baseline, show_pixel(x, y, result)}. */
@@ -88,19 +145,46 @@ export function timing_table(results, context) {
       return el("tr", { class: "no-result" }, heading, reason_cell(result, columns.length + (with_speedup ? 2 : 1)));
     }
     const samples = timing_samples(result);
-    return el("tr", { "data-label": result.label }, heading,
+    return el(
+      "tr",
+      { "data-label": result.label },
+      heading,
       el("td", { class: "strip-cell" }, samples.length > 0 ? timing_strip(samples, end, mark) : null),
       columns.map((column) => number_cell(result, column, decimals, best.get(column))),
-      with_speedup ? speedup_cell(result, decimals_of(results, SPEEDUP_COLUMN), best.get(SPEEDUP_COLUMN)) : null);
+      with_speedup ? speedup_cell(result, decimals_of(results, SPEEDUP_COLUMN), best.get(SPEEDUP_COLUMN)) : null,
+    );
   });
-  return scroll_box("Timings", el("table", { class: "results timings" },
-    el("caption", {}, "Timings", clocks.length > 0 ? el("span", { class: "muted" }, ` ${clocks.join(" and ")} clock`) : null),
-    el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Method"),
-      el("th", { scope: "col", class: "strip-head" }, "Frames",
-        el("span", { class: "axis-text" }, el("span", {}, "0"), el("span", {}, `${end} ms`))),
-      columns.map((column) => head_cell(column, [])),
-      with_speedup ? head_cell(SPEEDUP_COLUMN, []) : null)),
-    el("tbody", {}, body)));
+  return scroll_box(
+    "Timings",
+    el(
+      "table",
+      { class: "results timings" },
+      el(
+        "caption",
+        {},
+        "Timings",
+        clocks.length > 0 ? el("span", { class: "muted" }, ` ${clocks.join(" and ")} clock`) : null,
+      ),
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          el("th", { scope: "col" }, "Method"),
+          el(
+            "th",
+            { scope: "col", class: "strip-head" },
+            "Frames",
+            el("span", { class: "axis-text" }, el("span", {}, "0"), el("span", {}, `${end} ms`)),
+          ),
+          columns.map((column) => head_cell(column, [])),
+          with_speedup ? head_cell(SPEEDUP_COLUMN, []) : null,
+        ),
+      ),
+      el("tbody", {}, body),
+    ),
+  );
 }
 
 export function difference_table(results, context) {
@@ -109,17 +193,43 @@ export function difference_table(results, context) {
     const heading = method_cell(result, context);
     if (result.status !== "ok" || !result.metrics) {
       const why = { ...result, reason: missing_reason(result, { path: "metrics" }).replace(/^\w+: /, "") };
-      return el("tr", { class: "no-result" }, heading,
-        result.status === "ok" ? el("td", { class: "reason", colspan: DIFFERENCE_COLUMNS.length }, why.reason)
-                               : reason_cell(result, DIFFERENCE_COLUMNS.length));
+      return el(
+        "tr",
+        { class: "no-result" },
+        heading,
+        result.status === "ok"
+          ? el("td", { class: "reason", colspan: DIFFERENCE_COLUMNS.length }, why.reason)
+          : reason_cell(result, DIFFERENCE_COLUMNS.length),
+      );
     }
-    return el("tr", { "data-label": result.label }, heading, DIFFERENCE_COLUMNS.map((column) =>
-      column.pixel ? pixel_cell(result, column, context)
-                   : number_cell(result, column, decimals_of(results, column), best.get(column))));
+    return el(
+      "tr",
+      { "data-label": result.label },
+      heading,
+      DIFFERENCE_COLUMNS.map((column) =>
+        column.pixel
+          ? pixel_cell(result, column, context)
+          : number_cell(result, column, decimals_of(results, column), best.get(column)),
+      ),
+    );
   });
-  return scroll_box("Differences from the reference", el("table", { class: "results differences" },
-    el("caption", {}, "Difference from the reference"),
-    el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Method"),
-      DIFFERENCE_COLUMNS.map((column) => head_cell(column, context.metrics)))),
-    el("tbody", {}, body)));
+  return scroll_box(
+    "Differences from the reference",
+    el(
+      "table",
+      { class: "results differences" },
+      el("caption", {}, "Difference from the reference"),
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          el("th", { scope: "col" }, "Method"),
+          DIFFERENCE_COLUMNS.map((column) => head_cell(column, context.metrics)),
+        ),
+      ),
+      el("tbody", {}, body),
+    ),
+  );
 }

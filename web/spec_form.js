@@ -11,22 +11,32 @@ export class SpecForm {
   #methods;
   #scenes;
   #list = el("ol", { class: "method-list" });
-  #baseline_place = el("div", { class: "fields" });
+  #baseline_place = el("div", { class: "stacked" });
   #checks = el("ol", { class: "check-list" });
 
   constructor(model, { methods, scenes }) {
     this.#model = model;
     this.#methods = methods;
     this.#scenes = scenes;
-    this.element = el("form", { class: "spec-form", novalidate: true, "aria-label": "Comparison",
-                                onsubmit: (event) => event.preventDefault() });
+    this.element = el("form", {
+      class: "spec-form",
+      novalidate: true,
+      "aria-label": "Comparison",
+      onsubmit: (event) => event.preventDefault(),
+    });
     this.draw();
   }
 
   /** Everything anew, after the spec was exchanged. */
   draw() {
     const left = el("div", { class: "column" }, this.#scene_section(), this.#image_section(), this.#timing_section());
-    const right = el("div", { class: "column" }, this.#methods_section(), this.#reference_section(), this.#checks_section());
+    const right = el(
+      "div",
+      { class: "column" },
+      this.#methods_section(),
+      this.#reference_section(),
+      this.#checks_section(),
+    );
     set_children(this.element, this.#title_section(), el("div", { class: "columns" }, left, right));
   }
 
@@ -46,12 +56,19 @@ export class SpecForm {
 
   get #method_specs() {
     const methods = this.#model.get(["methods"]);
-    return (Array.isArray(methods) ? methods : []).map((method) => (typeof method === "string" ? { id: method } : method ?? {}));
+    return (Array.isArray(methods) ? methods : []).map((method) =>
+      typeof method === "string" ? { id: method } : (method ?? {}),
+    );
   }
 
   #section(title, pointer, ...children) {
-    return el("section", { class: "card", "data-pointer": pointer, "aria-label": title }, el("h2", {}, title), children,
-              el("p", { class: "error-text", hidden: true }));
+    return el(
+      "section",
+      { class: "card", "data-pointer": pointer, "aria-label": title },
+      el("h2", {}, title),
+      children,
+      el("p", { class: "error-text", hidden: true }),
+    );
   }
 
   #title_section() {
@@ -64,13 +81,26 @@ export class SpecForm {
   #tags_field() {
     const id = unique_id("field");
     const tags = this.#model.get(["tags"]);
-    const text = Object.entries(typeof tags === "object" && tags !== null ? tags : {}).map(([name, value]) => `${name}: ${value}`);
-    const input = el("input", { id, type: "text", value: text.join(", "), placeholder: "branch: main, gpu: none", oninput: () => {
-      const parts = input.value.split(",").map((part) => part.split(":")).filter(([name]) => name.trim() !== "");
-      const read = Object.fromEntries(parts.map(([name, ...rest]) => [name.trim(), rest.join(":").trim()]));
-      this.#model.set(["tags"], parts.length > 0 ? read : undefined);
-    } });
-    return field_frame({ name: "tags", kind: "text", summary: "name: text, separated by commas" }, ["tags"], input, { for_id: id });
+    const text = Object.entries(typeof tags === "object" && tags !== null ? tags : {}).map(
+      ([name, value]) => `${name}: ${value}`,
+    );
+    const input = el("input", {
+      id,
+      type: "text",
+      value: text.join(", "),
+      placeholder: "branch: main, gpu: none",
+      oninput: () => {
+        const parts = input.value
+          .split(",")
+          .map((part) => part.split(":"))
+          .filter(([name]) => name.trim() !== "");
+        const read = Object.fromEntries(parts.map(([name, ...rest]) => [name.trim(), rest.join(":").trim()]));
+        this.#model.set(["tags"], parts.length > 0 ? read : undefined);
+      },
+    });
+    return field_frame({ name: "tags", kind: "text", summary: "name: text, separated by commas" }, ["tags"], input, {
+      for_id: id,
+    });
   }
 
   #scene_section() {
@@ -80,7 +110,12 @@ export class SpecForm {
     const choices = this.#scenes.map((scene) => [scene.id, scene.name]);
     if (!info) choices.unshift([type, type === "" ? "Choose a scene" : `${type} (unknown)`]);
     const input = select({ id, onchange: () => this.#choose_scene(input.value) }, choices, info?.id ?? type);
-    const frame = field_frame({ name: "type", kind: "choice", summary: info?.summary ?? "" }, ["scene", "type"], input, { for_id: id });
+    const frame = field_frame(
+      { name: "type", kind: "choice", summary: info?.summary ?? "" },
+      ["scene", "type"],
+      input,
+      { for_id: id },
+    );
     return this.#section("Scene", "/scene", frame, info ? fields_of(info.parameters, ["scene"], this.#model) : null);
   }
 
@@ -91,7 +126,8 @@ export class SpecForm {
     const scene = { type };
     for (const param of info.parameters) {
       if (param.name in old) scene[param.name] = old[param.name];
-      else if (param.required) scene[param.name] = param.kind === "list" ? [new_entry(param.fields)] : new_entry([param])[param.name];
+      else if (param.required)
+        scene[param.name] = param.kind === "list" ? [new_entry(param.fields)] : new_entry([param])[param.name];
     }
     this.#model.set(["scene"], scene);
     const section = this.element.querySelector("[data-pointer='/scene']");
@@ -99,19 +135,39 @@ export class SpecForm {
     this.element.querySelector("[data-pointer='/scene'] select").focus();
   }
 
-  #image_section() { return this.#section("Image", "/image", fields_of(IMAGE_FIELDS, ["image"], this.#model)); }
-  #timing_section() { return this.#section("Timing", "/timing", fields_of(TIMING_FIELDS, ["timing"], this.#model)); }
+  #image_section() {
+    return this.#section("Image", "/image", fields_of(IMAGE_FIELDS, ["image"], this.#model));
+  }
+  #timing_section() {
+    return this.#section("Timing", "/timing", fields_of(TIMING_FIELDS, ["timing"], this.#model));
+  }
 
   #methods_section() {
     this.#draw_methods();
-    const add = this.#methods.map((method) => el("button", {
-      type: "button", class: "small", title: method.summary, "aria-label": `Add ${method.name}`,
-      onclick: () => {
-        this.#put_methods([...this.#model.get(["methods"]) ?? [], method.id]);
-        this.#list.lastElementChild.querySelector("input, select, button").focus();
-      },
-    }, `+ ${method.name}`));
-    return this.#section("Methods", "/methods", this.#list, el("div", { class: "add-row", role: "group", "aria-label": "Add a method" }, add));
+    const add = this.#methods.map((method) =>
+      el(
+        "button",
+        {
+          type: "button",
+          class: "small",
+          title: method.summary,
+          "aria-label": `Add ${method.name}`,
+          onclick: () => {
+            this.#put_methods([...(this.#model.get(["methods"]) ?? []), method.id]);
+            const card = this.#list.lastElementChild;
+            card.querySelector("details")?.setAttribute("open", "");
+            card.querySelector("input").focus();
+          },
+        },
+        `+ ${method.name}`,
+      ),
+    );
+    return this.#section(
+      "Methods",
+      "/methods",
+      this.#list,
+      el("div", { class: "add-row", role: "group", "aria-label": "Add a method" }, add),
+    );
   }
 
   #put_methods(methods) {
@@ -122,8 +178,12 @@ export class SpecForm {
   }
 
   #draw_methods() {
-    set_children(this.#list, this.#method_specs.map((method, index) => this.#method_card(method, index)));
-    if (this.#list.children.length === 0) set_children(this.#list, el("li", { class: "empty muted" }, "No method yet."));
+    set_children(
+      this.#list,
+      this.#method_specs.map((method, index) => this.#method_card(method, index)),
+    );
+    if (this.#list.children.length === 0)
+      set_children(this.#list, el("li", { class: "empty muted" }, "No method yet."));
   }
 
   #method_card(method, index) {
@@ -131,15 +191,31 @@ export class SpecForm {
     const path = ["methods", index];
     const name = info?.name ?? String(method.id);
     const methods = () => this.#model.get(["methods"]);
-    const button = (text, label, action, disabled = false) => el("button", {
-      type: "button", class: "quiet small", "aria-label": `${label} ${name} (${index + 1})`, title: label, disabled, onclick: action,
-    }, text);
+    const button = (text, label, action, disabled = false) =>
+      el(
+        "button",
+        {
+          type: "button",
+          class: "quiet small",
+          "aria-label": `${label} ${name} (${index + 1})`,
+          title: label,
+          disabled,
+          onclick: action,
+        },
+        text,
+      );
     const label_id = unique_id("field");
-    const label = el("input", { id: label_id, type: "text", value: method.label ?? "", placeholder: this.#labels[index], oninput: () => {
-      this.#model.set([...path, "label"], label.value === "" ? undefined : label.value);
-      this.#draw_baseline();
-      this.#draw_checks();
-    } });
+    const label = el("input", {
+      id: label_id,
+      type: "text",
+      value: method.label ?? "",
+      placeholder: this.#labels[index],
+      oninput: () => {
+        this.#model.set([...path, "label"], label.value === "" ? undefined : label.value);
+        this.#draw_baseline();
+        this.#draw_checks();
+      },
+    });
     const copy = () => {
       const { label: taken, ...rest } = method_object(methods()[index]);
       this.#put_methods(methods().toSpliced(index + 1, 0, Object.keys(rest).length > 1 ? rest : rest.id));
@@ -149,33 +225,74 @@ export class SpecForm {
       [next[index - 1], next[index]] = [next[index], next[index - 1]];
       this.#put_methods(next);
     };
-    return el("li", { class: "method-card", "data-pointer": pointer_of(path) },
-      el("div", { class: "method-head" }, el("strong", { title: info?.summary }, name),
+    return el(
+      "li",
+      { class: "method-card", "data-pointer": pointer_of(path) },
+      el(
+        "div",
+        { class: "method-head" },
+        el("strong", { title: info?.summary }, name),
         info?.kind ? el("span", { class: "muted kind" }, info.kind) : null,
-        el("span", { class: "head-buttons" }, button("↑", "Move up", move, index === 0), button("Copy", "Copy", copy),
-          button("✕", "Remove", () => this.#put_methods(methods().toSpliced(index, 1))))),
-      el("div", { class: "fields" },
+        el(
+          "span",
+          { class: "head-buttons" },
+          button("↑", "Move up", move, index === 0),
+          button("Copy", "Copy", copy),
+          button("✕", "Remove", () => this.#put_methods(methods().toSpliced(index, 1))),
+        ),
+      ),
+      el(
+        "div",
+        { class: "fields" },
         field_frame({ name: "label", kind: "text", summary: "" }, [...path, "label"], label, { for_id: label_id }),
-        info ? [...fields_of(info.parameters, path, this.#model).children] : null),
-      el("p", { class: "error-text", hidden: true }));
+      ),
+      info ? this.#parameters(info, path) : null,
+      el("p", { class: "error-text", hidden: true }),
+    );
+  }
+
+  /** Folded away until one of them is set. */
+  #parameters(info, path) {
+    if (info.parameters.length === 0) return null;
+    const is_set = info.parameters.some((param) => this.#model.get([...path, param.name]) !== undefined);
+    return el(
+      "details",
+      { class: "parameters", open: is_set },
+      el("summary", {}, info.parameters.length === 1 ? "1 parameter" : `${info.parameters.length} parameters`),
+      fields_of(info.parameters, path, this.#model),
+    );
   }
 
   #reference_section() {
-    const place = el("div", { class: "fields" });
+    const place = el("div", { class: "stacked" });
     const draw = () => {
       const reference = method_object(this.#model.get(["reference"]) ?? "exact");
       const info = this.#methods.find((one) => same_id(one.id, reference.id));
       const id = unique_id("field");
       const choices = this.#methods.map((one) => [one.id, one.name]);
       if (!info) choices.unshift([reference.id, reference.id]);
-      const input = select({ id, onchange: () => {
-        this.#model.set(["reference"], input.value === "exact" ? undefined : input.value);
-        draw();
-        place.querySelector("select").focus();
-      } }, choices, info?.id ?? reference.id);
-      set_children(place, field_frame({ name: "reference", kind: "choice", summary: "differences are measured against it" },
-        ["reference"], input, { for_id: id }),
-        info ? [...fields_of(info.parameters, ["reference"], this.#model).children] : null);
+      const input = select(
+        {
+          id,
+          onchange: () => {
+            this.#model.set(["reference"], input.value === "exact" ? undefined : input.value);
+            draw();
+            place.querySelector("select").focus();
+          },
+        },
+        choices,
+        info?.id ?? reference.id,
+      );
+      set_children(
+        place,
+        field_frame(
+          { name: "reference", kind: "choice", summary: "differences are measured against it" },
+          ["reference"],
+          input,
+          { for_id: id },
+        ),
+        info ? this.#parameters(info, ["reference"]) : null,
+      );
     };
     draw();
     this.#draw_baseline();
@@ -187,26 +304,50 @@ export class SpecForm {
     const current = this.#model.get(["baseline"]) ?? "";
     const choices = [["", "b2f, else the first method"], ...this.#labels.map((label) => [label, label])];
     if (current !== "" && !this.#labels.includes(current)) choices.push([current, current]);
-    const input = select({ id, onchange: () => this.#model.set(["baseline"], input.value || undefined) }, choices, current);
-    set_children(this.#baseline_place,
-      field_frame({ name: "baseline", kind: "choice", summary: "speed-ups are relative to it" }, ["baseline"], input, { for_id: id }));
+    const input = select(
+      { id, onchange: () => this.#model.set(["baseline"], input.value || undefined) },
+      choices,
+      current,
+    );
+    set_children(
+      this.#baseline_place,
+      field_frame({ name: "baseline", kind: "choice", summary: "speed-ups are relative to it" }, ["baseline"], input, {
+        for_id: id,
+      }),
+    );
   }
 
   #checks_section() {
     this.#draw_checks();
-    const add = el("button", { type: "button", class: "small", onclick: () => {
-      const check = { metric: CHECK_METRICS[0], method: this.#labels[0] ?? "", max: 0.05 };
-      this.#model.set(["checks"], [...this.#model.get(["checks"]) ?? [], check]);
-      this.#draw_checks();
-      this.#checks.lastElementChild.querySelector("select").focus();
-    } }, "+ Add a check");
-    return this.#section("Checks", "/checks", el("p", { class: "hint" }, "What must hold for the report to pass."), this.#checks,
-                         el("div", { class: "add-row" }, add));
+    const add = el(
+      "button",
+      {
+        type: "button",
+        class: "small",
+        onclick: () => {
+          const check = { metric: CHECK_METRICS[0], method: this.#labels[0] ?? "", max: 0.05 };
+          this.#model.set(["checks"], [...(this.#model.get(["checks"]) ?? []), check]);
+          this.#draw_checks();
+          this.#checks.lastElementChild.querySelector("select").focus();
+        },
+      },
+      "+ Add a check",
+    );
+    return this.#section(
+      "Checks",
+      "/checks",
+      el("p", { class: "hint" }, "What must hold for the report to pass."),
+      this.#checks,
+      el("div", { class: "add-row" }, add),
+    );
   }
 
   #draw_checks() {
     const checks = this.#model.get(["checks"]);
-    set_children(this.#checks, (Array.isArray(checks) ? checks : []).map((check, index) => this.#check_row(check ?? {}, index)));
+    set_children(
+      this.#checks,
+      (Array.isArray(checks) ? checks : []).map((check, index) => this.#check_row(check ?? {}, index)),
+    );
   }
 
   #check_row(check, index) {
@@ -215,18 +356,36 @@ export class SpecForm {
       const id = unique_id("field");
       const current = check[name] ?? "";
       const all = choices.includes(current) ? choices : [...choices, current];
-      const input = select({ id, onchange: () => this.#model.set([...path, name], input.value) }, all.map((one) => [one, one]), current);
+      const input = select(
+        { id, onchange: () => this.#model.set([...path, name], input.value) },
+        all.map((one) => [one, one]),
+        current,
+      );
       return field_frame({ name, kind: "choice", summary: "" }, [...path, name], input, { for_id: id });
     };
     const fields = fields_of(CHECK_BOUNDS, path, this.#model);
     fields.prepend(pick("metric", CHECK_METRICS), pick("method", this.#labels));
-    return el("li", { class: "check-row", "data-pointer": pointer_of(path) }, fields,
-      el("button", { type: "button", class: "quiet small", "aria-label": `Remove check ${index + 1}`, title: "Remove", onclick: () => {
-        const left = this.#model.get(["checks"]).toSpliced(index, 1);
-        this.#model.set(["checks"], left.length > 0 ? left : undefined);
-        this.#draw_checks();
-      } }, "✕"),
-      el("p", { class: "error-text", hidden: true }));
+    return el(
+      "li",
+      { class: "check-row", "data-pointer": pointer_of(path) },
+      fields,
+      el(
+        "button",
+        {
+          type: "button",
+          class: "quiet small",
+          "aria-label": `Remove check ${index + 1}`,
+          title: "Remove",
+          onclick: () => {
+            const left = this.#model.get(["checks"]).toSpliced(index, 1);
+            this.#model.set(["checks"], left.length > 0 ? left : undefined);
+            this.#draw_checks();
+          },
+        },
+        "✕",
+      ),
+      el("p", { class: "error-text", hidden: true }),
+    );
   }
 }
 

@@ -24,7 +24,9 @@ export class SpecModel extends EventTarget {
     this.#spec = structuredClone(spec);
   }
 
-  get spec() { return this.#spec; }
+  get spec() {
+    return this.#spec;
+  }
 
   replace(spec) {
     this.#spec = structuredClone(spec);

@@ -11,8 +11,11 @@ function download_json() {
   URL.revokeObjectURL(link.href);
 }
 
-document.getElementById("main").append(report_view(report, {
-  picture_url: (image) => pictures[image.sha256] ?? null,
-  methods, metrics,
-  actions: [el("button", { type: "button", onclick: download_json }, "Save report.json")],
-}));
+document.getElementById("main").append(
+  report_view(report, {
+    picture_url: (image) => pictures[image.sha256] ?? null,
+    methods,
+    metrics,
+    actions: [el("button", { type: "button", onclick: download_json }, "Save report.json")],
+  }),
+);

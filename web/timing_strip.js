@@ -33,12 +33,14 @@ export function timing_strip(samples, end, mark) {
   const sorted = [...samples].sort((a, b) => a - b);
   const [q1, median, q3] = [0.25, 0.5, 0.75].map((share) => quantile(sorted, share));
   const label = `${samples.length} frames from ${fixed(sorted[0], 3)} to ${fixed(sorted.at(-1), 3)} ms`;
-  return svg("svg", { class: "strip", viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": label },
+  return svg(
+    "svg",
+    { class: "strip", viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": label },
     svg("title", {}, label),
     svg("line", { class: "axis", x1: x(0), x2: x(end), y1: HEIGHT - 1, y2: HEIGHT - 1 }),
     is_number(mark) ? svg("line", { class: "baseline", x1: x(mark), x2: x(mark), y1: 0, y2: HEIGHT }) : null,
     svg("rect", { class: "box", x: x(q1), y: 4, width: Math.max(1, x(q3) - x(q1)), height: HEIGHT - 8, rx: 2 }),
-    samples.map((ms, index) =>
-      svg("circle", { cx: x(ms), cy: HEIGHT * ROWS[index % ROWS.length], r: 2 })),
-    svg("line", { class: "median", x1: x(median), x2: x(median), y1: 2, y2: HEIGHT - 2 }));
+    samples.map((ms, index) => svg("circle", { cx: x(ms), cy: HEIGHT * ROWS[index % ROWS.length], r: 2 })),
+    svg("line", { class: "median", x1: x(median), x2: x(median), y1: 2, y2: HEIGHT - 2 }),
+  );
 }

@@ -16,9 +16,15 @@ export class Viewport extends EventTarget {
     this.#center = [width_px / 2, height_px / 2];
   }
 
-  get size() { return [this.#width, this.#height]; }
-  get fits() { return this.#zoom === null; }
-  get cursor() { return this.#cursor; }
+  get size() {
+    return [this.#width, this.#height];
+  }
+  get fits() {
+    return this.#zoom === null;
+  }
+  get cursor() {
+    return this.#cursor;
+  }
 
   /** Device pixels per picture pixel in a pane of this size (CSS pixels). */
   zoom_in(pane_width, pane_height) {
@@ -33,13 +39,16 @@ export class Viewport extends EventTarget {
     return fit >= 1 ? Math.floor(fit) : Math.max(fit, 1 / 64);
   }
 
-  /** Where the picture lies in a pane: {scale, left, top} in CSS pixels, snapped to device pixels. */
-  place(pane_width, pane_height) {
+  /**
+   * Where the picture lies in a pane: {scale, left, top} in CSS pixels from the pane's corner, which itself lies at
+   * (x0, y0) of the window. Snapped to device pixels of the window, so that picture pixels fall on whole screen pixels.
+   */
+  place(pane_width, pane_height, x0 = 0, y0 = 0) {
     const ratio = window.devicePixelRatio || 1;
     const scale = this.zoom_in(pane_width, pane_height) / ratio;
     const [x, y] = this.fits ? [this.#width / 2, this.#height / 2] : this.#center;
-    const snap = (value) => Math.round(value * ratio) / ratio;
-    return { scale, left: snap(pane_width / 2 - x * scale), top: snap(pane_height / 2 - y * scale) };
+    const snap = (value, corner) => Math.round((value + corner) * ratio) / ratio - corner;
+    return { scale, left: snap(pane_width / 2 - x * scale, x0), top: snap(pane_height / 2 - y * scale, y0) };
   }
 
   fit() {
@@ -63,8 +72,8 @@ export class Viewport extends EventTarget {
   /** To the next step in (+1) or out (-1). */
   step(direction, pane, x = null, y = null) {
     const now = this.zoom_in(pane.width, pane.height);
-    const next = direction > 0 ? STEPS.find((step) => step > now * 1.001)
-                               : STEPS.findLast((step) => step < now * 0.999);
+    const next =
+      direction > 0 ? STEPS.find((step) => step > now * 1.001) : STEPS.findLast((step) => step < now * 0.999);
     if (next !== undefined) this.zoom_to(next, pane, x, y);
   }
 

@@ -1,0 +1,87 @@
+// The form of a new comparison against a real service.
+import assert from "node:assert/strict";
+import { HOSTILE, assert_accessible, field, fill_form, service_tests } from "./harness.mjs";
+
+const tests = service_tests();
+const { page_test, api } = tests;
+
+page_test("the form has the parameters that the service describes", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/`);
+  const [methods, scenes] = await Promise.all([api("/methods"), api("/scenes")]);
+  for (const method of methods) await page.getByRole("button", { name: `Add ${method.name}`, exact: true }).click();
+  const cards = page.locator(".method-list > li");
+  const present = await cards.count();
+  for (const [index, method] of methods.entries()) {
+    const card = cards.nth(present - methods.length + index);
+    for (const param of method.parameters) {
+      const pointer = `/methods/${present - methods.length + index}/${param.name}`;
+      assert.equal(await card.locator(field(pointer)).count(), 1, `${method.id} ${param.name}`);
+    }
+  }
+  for (const scene of scenes) {
+    await page.locator(`${field("/scene/type")} select`).selectOption(scene.id);
+    for (const param of scene.parameters)
+      assert.equal(await page.locator(field(`/scene/${param.name}`)).count(), 1, `${scene.id} ${param.name}`);
+  }
+});
+
+page_test("what is wrong is said at its field and in the spec", { expected_statuses: [422] }, async (page) => {
+  await fill_form(page, tests.url());
+  await page.locator(`${field("/scene/count")} input`).fill("0");
+  const error = page.locator(`${field("/scene/count")} > .error-text`);
+  await error.waitFor();
+  assert.match(await error.textContent(), /1.*65536/);
+  assert.equal(await page.locator(`${field("/scene/count")} input`).getAttribute("aria-invalid"), "true");
+  await assert_accessible(page, "a form with an error");
+  await page.getByRole("tab", { name: "Spec" }).click();
+  await page.getByRole("button", { name: "/scene/count" }).click();
+  assert.equal(await page.evaluate(() => getSelection().toString()), "0");
+  await page.getByLabel("Spec as JSON").fill("{ not JSON");
+  await page.getByRole("tabpanel", { name: "Spec" }).getByText("This is not JSON").waitFor();
+  assert.equal(await page.getByRole("button", { name: "Run comparison" }).isDisabled(), true);
+});
+
+page_test("form and spec are kept in step", {}, async (page) => {
+  await fill_form(page, tests.url());
+  await page.getByRole("tab", { name: "Spec" }).click();
+  const text = page.getByLabel("Spec as JSON");
+  const spec = JSON.parse(await text.inputValue());
+  assert.equal(spec.title, HOSTILE);
+  assert.equal(spec.scene.count, 24);
+  assert.deepEqual(spec.tags, { branch: "main", note: "a:b" });
+  const pasted = {
+    title: "Pasted",
+    scene: { type: "layers", layers: [{ depth: 0.5, alpha: 0.25 }] },
+    methods: ["b2f", { id: "f2bd", threshold: 0.25, label: "mine" }, "b2f"],
+  };
+  await text.fill(JSON.stringify(pasted));
+  await page.getByRole("tab", { name: "Form" }).click();
+  assert.equal(await page.locator(`${field("/title")} input`).inputValue(), "Pasted");
+  assert.equal(await page.locator(`${field("/methods/1/threshold")} input`).inputValue(), "0.25");
+  assert.equal(await page.locator(`${field("/scene/layers/0/alpha")} input`).inputValue(), "0.25");
+  assert.equal(await page.locator(`${field("/methods/2/label")} input`).getAttribute("placeholder"), "b2f 2");
+  await page.locator(`${field("/scene/layers/0/alpha")} input`).fill("0.75");
+  await page.getByRole("tab", { name: "Spec" }).click();
+  assert.equal(JSON.parse(await text.inputValue()).scene.layers[0].alpha, 0.75);
+  await page.getByText("The spec is valid.").waitFor();
+});
+
+page_test("the spec of a report can be used again", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
+  await page.getByRole("button", { name: "Use this spec again" }).click();
+  assert.equal(await page.locator(`${field("/title")} input`).inputValue(), HOSTILE);
+  assert.equal(await page.locator(`${field("/image/height")} input`).inputValue(), "64");
+  await page.getByText("The spec is valid.").waitFor();
+});
+
+page_test("the theme is kept", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/reports`);
+  const background = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+  const light = await background();
+  await page.getByRole("button", { name: /^Theme/ }).click();
+  await page.getByRole("button", { name: /^Theme/ }).click();
+  const dark = await background();
+  assert.notEqual(dark, light);
+  await page.reload();
+  assert.equal(await background(), dark);
+});

@@ -1,0 +1,134 @@
+// The page's modules that need no view, in the browser that runs them.
+import assert from "node:assert/strict";
+import { service_tests } from "./harness.mjs";
+
+const tests = service_tests();
+
+/** A test whose body runs in the page with the module's exports. */
+function module_test(name, module, body, expected) {
+  tests.page_test(name, {}, async (page) => {
+    await page.goto(`${tests.url()}/#/reports`);
+    const source = `import("/${module}").then(${body})`;
+    assert.deepEqual(await page.evaluate(source), expected);
+  });
+}
+
+module_test(
+  "a spec stays as short as it was written",
+  "spec_model.js",
+  ({ SpecModel }) => {
+    const model = new SpecModel({ methods: ["b2f", "f2bd"], scene: { type: "quads" }, other: 1 });
+    const seen = [];
+    model.set(["methods", 1, "threshold"], 0.5);
+    seen.push(structuredClone(model.spec.methods));
+    seen.push([
+      model.get(["methods", 1, "id"]),
+      model.get(["methods", 0, "id"]),
+      model.get(["timing", "rounds"]) ?? null,
+    ]);
+    model.set(["methods", 1, "threshold"], undefined);
+    model.set(["scene", "texture", "size"], 64);
+    seen.push(structuredClone(model.spec));
+    model.set(["scene", "texture", "size"], undefined);
+    seen.push(structuredClone(model.spec));
+    return seen;
+  },
+  [
+    ["b2f", { id: "f2bd", threshold: 0.5 }],
+    ["f2bd", "b2f", null],
+    { methods: ["b2f", "f2bd"], scene: { type: "quads", texture: { size: 64 } }, other: 1 },
+    { methods: ["b2f", "f2bd"], scene: { type: "quads" }, other: 1 },
+  ],
+);
+
+module_test(
+  "a JSON pointer leads to its place in the text",
+  "json_position.js",
+  ({ json_range }) => {
+    const text = '{ "a\\"b": [1, {"c/d~": [ "x,]}" ]}], "e": -2.5e3 }';
+    const part = (pointer) => text.slice(...json_range(text, pointer));
+    return ["/e", '/a"b/0', '/a"b/1/c~1d~0/0', '/a"b/1/missing', "/nothing"].map(part);
+  },
+  ["-2.5e3", "1", '"x,]}"', '{"c/d~": [ "x,]}" ]}', '{ "a\\"b": [1, {"c/d~": [ "x,]}" ]}], "e": -2.5e3 }'],
+);
+
+module_test(
+  "numbers line up and a missing one is a dash",
+  "format.js",
+  ({ column_decimals, fixed, integer, zoom_text }) => [
+    column_decimals([12.3, 0.0456, null]),
+    column_decimals([1, 20, 0]),
+    column_decimals([]),
+    fixed(-1.005, 1),
+    fixed(0, 4),
+    fixed(null, 2),
+    fixed(1e-9, 3),
+    integer(-12345),
+    zoom_text(0.0625),
+  ],
+  [4, 0, 0, "−1.0", "0", "–", "1.0e−9", "−12,345", "6 %"],
+);
+
+module_test(
+  "the best of a column: nearest to no error, and none where there is nothing to choose",
+  "columns.js",
+  ({ best_results, DIFFERENCE_COLUMNS, TIMING_COLUMNS, missing_reason }) => {
+    const result = (label, median, psnr, min, extra = {}) => ({
+      label,
+      status: "ok",
+      timing: { median },
+      metrics: { psnr, rmse: psnr === null ? 0 : 0.1, signed: { min } },
+      ...extra,
+    });
+    const results = [
+      result("identical", 5, null, 0),
+      result("near", 4, 60, -3),
+      result("far", 3, 20, -90),
+      result("bound", 1, null, 0, { metrics: null, metrics_reason: "draws nothing" }),
+      result("broken", 0.1, 99, 0, { status: "failed", reason: "out of memory" }),
+    ];
+    const column = (path) => [...DIFFERENCE_COLUMNS, ...TIMING_COLUMNS].find((one) => one.path === path);
+    const best = (path, of = results) => [...best_results(of, column(path))].map((one) => one.label);
+    return [
+      best("timing.median"),
+      best("metrics.psnr"),
+      best("metrics.signed.min"),
+      best("timing.median", [results[0], results[0]]),
+      missing_reason(results[0], column("metrics.psnr")),
+      missing_reason(results[3], column("metrics.psnr")),
+      missing_reason(results[4], column("timing.median")),
+    ];
+  },
+  [
+    ["far"],
+    ["identical"],
+    ["identical"],
+    [],
+    "none: identical to the reference",
+    "draws nothing",
+    "failed: out of memory",
+  ],
+);
+
+module_test(
+  "pictures stay on whole screen pixels while they are zoomed about a point",
+  "viewport.js",
+  ({ Viewport }) => {
+    const pane = { width: 301, height: 201 };
+    const view = new Viewport(64, 32);
+    const seen = [view.zoom_in(pane.width, pane.height)];
+    const before = view.place(pane.width, pane.height, 0.25, 0);
+    seen.push(Number.isInteger(before.left + 0.25), Number.isInteger(before.top));
+    view.zoom_to(8, pane, 10, 5);
+    const after = view.place(pane.width, pane.height);
+    const start = new Viewport(64, 32).place(pane.width, pane.height);
+    const moved = (axis, at) => after[axis] + at * after.scale - (start[axis] + at * start.scale);
+    seen.push(Math.abs(moved("left", 10)) <= 1, Math.abs(moved("top", 5)) <= 1);
+    view.show_pixel(63, 0, 16);
+    seen.push(view.cursor);
+    view.move_cursor(5, -5);
+    seen.push(view.cursor);
+    return seen;
+  },
+  [4, true, true, true, true, [63, 0], [63, 0]],
+);
