@@ -25,8 +25,10 @@ Param optional_number(std::string name, std::string summary) {
     return param;
 }
 
+/// A field that is read by a description of its own.
 Param any(std::string name, std::string summary, json fallback) {
     Param param{.name = std::move(name), .kind = Param::Kind::any, .summary = std::move(summary)};
+    param.optional = true;
     param.default_value = std::move(fallback);
     return param;
 }
@@ -53,7 +55,7 @@ std::vector<Param> spec_fields() {
         any("tags", "names and texts to find the report by", json::object()),
         Param::object(
             "image", "the picture that is rendered",
-            {Param::integer("width", "", "px", 512, 1, 4096), Param::integer("height", "", "px", 512, 1, 4096),
+            {Param::integer("width", "columns", "px", 512, 1, 4096), Param::integer("height", "rows", "px", 512, 1, 4096),
              Param::numbers("background", "red, green, blue behind everything", "", {0, 0, 0}, 0, 1),
              Param::choice("format", "what the methods blend into", "rgba8", {"rgba8", "rgba16f", "rgba32f"})}),
         any("scene", "an object with the type of the scene and its parameters", nullptr),

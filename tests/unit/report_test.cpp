@@ -1,0 +1,250 @@
+#include "renderer/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <limits>
+#include <map>
+
+#include "renderer/report/picture_file.h"
+#include "renderer/report/statistics.h"
+
+namespace sheer {
+
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Statistics, OfSevenByHand) {
+    // Sorted 1 2 3 4 5 6 20: median 4, deviations 0 1 1 2 2 3 16 with median 2, 95 % of 7 is rank 7.
+    const Summary summary = summarize({5, 1, 20, 4, 3, 6, 2});
+    EXPECT_EQ(summary.median, 4);
+    EXPECT_EQ(summary.mad, 2);
+    EXPECT_EQ(summary.min, 1);
+    EXPECT_EQ(summary.p95, 20);
+    // 2 / 2^7 = 1.6 % lies outside the whole range, 2 (1 + 7) / 2^7 = 12.5 % outside the second to sixth.
+    ASSERT_TRUE(summary.ci95.has_value());
+    EXPECT_EQ(*summary.ci95, std::pair(1.0, 20.0));
+}
+
+TEST(Statistics, OfTenByHand) {
+    // 2 (1 + 10) / 2^10 = 2.1 % outside ranks 2 to 9, 2 (1 + 10 + 45) / 2^10 = 10.9 % outside 3 to 8.
+    EXPECT_EQ(median_interval_95({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}), std::pair(2.0, 9.0));
+    EXPECT_EQ(median({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}), 5.5);
+    EXPECT_EQ(percentile({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}, 95), 10);
+    EXPECT_EQ(percentile({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}, 50), 5);
+}
+
+TEST(Statistics, FiveSamplesGiveNoInterval) {
+    // 2 / 2^5 = 6.25 % outside even the whole range.
+    EXPECT_EQ(median_interval_95({1, 2, 3, 4, 5}), std::nullopt);
+    EXPECT_THROW(summarize({}), std::invalid_argument);
+}
+
+/// Ranks 40 to 61 of 100 hold the median with 96.5 % (tables of the sign test).
+TEST(Statistics, OfAHundred) {
+    std::vector<double> samples;
+    for (int i = 1; i <= 100; ++i) samples.push_back(i);
+    EXPECT_EQ(median_interval_95(samples), std::pair(40.0, 61.0));
+}
+
+TEST(Sha256, OfKnownTexts) {
+    EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+/// Keeps what it is given.
+class MapSink : public BlobSink {
+  public:
+    std::map<std::string, std::string> bytes_by_name;
+    std::string put(const std::string&, const std::string& bytes, const std::string& name,
+                    const std::string&) override {
+        bytes_by_name[name] = bytes;
+        return "there/" + name;
+    }
+};
+
+gl::FrameSample sample(double wall_ms, double gpu_ms) {
+    return {wall_ms,
+            gpu_ms,
+            true,
+            {{"clear", gl::Phase::initialization, 1},
+             {"transparent", gl::Phase::transparent, gpu_ms - 3},
+             {"composite", gl::Phase::finalization, 2}}};
+}
+
+/// b2f takes 10, 20, ... 60 ms; f2bd half of that in each round; f2bx is unsupported.
+struct ReportFixture : testing::Test {
+    Spec spec = parse_spec({{"title", "A & \"B\""},
+                            {"scene", {{"type", "quads"}}},
+                            {"methods", {"b2f", {{"id", "f2bd"}, {"label", "F2BD <1>"}}, "f2bx"}},
+                            {"image", {{"width", 4}, {"height", 2}}},
+                            {"checks",
+                             {{{"metric", "speedup"}, {"method", "f2bd"}, {"min", 1.9}, {"max", 2.1}},
+                              {{"metric", "signed.max"}, {"method", "F2BD <1>"}, {"max", 50}},
+                              {{"metric", "psnr"}, {"method", "b2f"}, {"min", 99}},
+                              {{"metric", "rmse"}, {"method", "f2bx"}, {"max", 1}}}}});
+    Comparison comparison;
+    MapSink sink;
+
+    ReportFixture() {
+        comparison.device.renderer = "test";
+        comparison.device.context = "egl";
+        comparison.device.software = true;
+        sheer::Run run;
+        run.reference = spec.reference;
+        run.reference_image = Image(4, 2);
+        run.no_residual_reason = "too many";
+        run.results.resize(3);
+        for (std::size_t i = 0; i < 3; ++i) {
+            MethodResult& result = run.results[i];
+            result.method = spec.methods[i];
+            result.image = Image(4, 2);
+            for (int round = 1; round <= 6; ++round)
+                result.samples.push_back(sample(10.0 * round / (i + 1), 9.0 * round / (i + 1)));
+        }
+        // 0.2 is 51 levels over the black of the reference.
+        run.results[1].image.pixel(2, 1)[1] = 0.2f;
+        for (std::size_t i = 0; i < 2; ++i)
+            run.results[i].metrics = compute_metrics(run.reference_image, run.results[i].image);
+        run.results[2].status = "unsupported";
+        run.results[2].reason = "no <barrier>";
+        comparison.runs.push_back(std::move(run));
+    }
+
+    json report() { return make_report(spec, comparison, sink, "2026-01-01T00:00:00.000Z"); }
+};
+
+TEST_F(ReportFixture, TimesAndSpeedupsAreThoseOfTheSamples) {
+    const json made = report();
+    const json& b2f = made["runs"][0]["results"][0];
+    const json& f2bd = made["runs"][0]["results"][1];
+    // A software rasteriser is timed by the wall clock.
+    EXPECT_EQ(b2f["timing"]["clock"], "wall");
+    EXPECT_EQ(b2f["timing"]["samples"], json({10.0, 20.0, 30.0, 40.0, 50.0, 60.0}));
+    EXPECT_EQ(b2f["timing"]["median"], 35);
+    EXPECT_EQ(b2f["timing"]["initialization"], 1);
+    EXPECT_EQ(b2f["timing"]["finalization"], 2);
+    EXPECT_EQ(b2f["timing"]["passes"][1]["median"], 9 * 3.5 - 3);
+    EXPECT_EQ(f2bd["timing"]["median"], 17.5);
+    EXPECT_EQ(b2f["speedup"], json({{"value", 1.0}, {"ci95", {1.0, 1.0}}, {"verdict", "not resolved"}}));
+    EXPECT_EQ(f2bd["speedup"], json({{"value", 2.0}, {"ci95", {2.0, 2.0}}, {"verdict", "faster"}}));
+}
+
+TEST_F(ReportFixture, AGpuIsTimedByItsOwnClockWhileTheClocksAgree) {
+    comparison.device.software = false;
+    EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["clock"], "gpu");
+    EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["median"], 9 * 3.5);
+    comparison.runs[0].results[1].samples[0].valid = false;
+    EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["clock"], "wall") << "one clock for all methods";
+}
+
+TEST_F(ReportFixture, MetricsAreSignedReferenceMinusMethod) {
+    const json metrics = report()["runs"][0]["results"][1]["metrics"];
+    EXPECT_EQ(metrics["signed"]["min"], -51);
+    EXPECT_EQ(metrics["signed"]["max"], 0);
+    EXPECT_DOUBLE_EQ(metrics["signed"]["mean_abs"], 51.0 / 24);
+    EXPECT_EQ(metrics["worst_pixel"], json({2, 1}));
+    EXPECT_TRUE(report()["runs"][0]["results"][0]["metrics"]["psnr"].is_null());
+}
+
+TEST_F(ReportFixture, ChecksHoldTheirLimits) {
+    const json made = report();
+    ASSERT_EQ(made["checks"].size(), 4u);
+    EXPECT_EQ(made["checks"][0]["passed"], true);
+    EXPECT_EQ(made["checks"][0]["value"], 2.0);
+    EXPECT_EQ(made["checks"][1]["passed"], true);
+    EXPECT_EQ(made["checks"][2]["passed"], true) << "identical pictures pass any least PSNR";
+    EXPECT_EQ(made["checks"][3]["passed"], false) << "what was not measured passes nothing";
+    EXPECT_TRUE(made["checks"][3]["value"].is_null());
+    EXPECT_EQ(made["verdict"], "failed");
+}
+
+TEST_F(ReportFixture, WhatWasNotMeasuredIsNullWithAReason) {
+    const json run = report()["runs"][0];
+    EXPECT_TRUE(run["reference"]["residual"]["depth_peeling"].is_null());
+    EXPECT_EQ(run["reference"]["residual_reason"], "too many");
+    EXPECT_EQ(run["results"][2]["status"], "unsupported");
+    EXPECT_EQ(run["results"][2]["reason"], "no <barrier>");
+    EXPECT_TRUE(run["results"][2]["timing"].is_null());
+    EXPECT_TRUE(run["results"][2]["metrics"].is_null());
+    EXPECT_TRUE(run["results"][2]["speedup"].is_null());
+}
+
+TEST_F(ReportFixture, PicturesHaveNamesAndHashesOfTheirBytes) {
+    const json images = report()["runs"][0]["results"][1]["images"];
+    EXPECT_EQ(images["color"]["url"], "there/2-F2BD--1-.color.png");
+    const std::string& bytes = sink.bytes_by_name.at("2-F2BD--1-.color.png");
+    EXPECT_EQ(images["color"]["sha256"], sha256_hex(bytes));
+    EXPECT_EQ(images["color"]["media_type"], "image/png");
+    EXPECT_TRUE(images.contains("difference"));
+    EXPECT_TRUE(images.contains("flip"));
+    EXPECT_TRUE(sink.bytes_by_name.contains("reference-exact.linear.exr"));
+}
+
+TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
+    const std::string table = report_table(report());
+    EXPECT_THAT(table, HasSubstr("b2f           35.00"));
+    EXPECT_THAT(table, HasSubstr("2.00x [2.00, 2.00]"));
+    EXPECT_THAT(table, HasSubstr("f2bx      unsupported: no <barrier>"));
+    EXPECT_THAT(table, HasSubstr("FAILED  rmse of f2bx is null, at most 1"));
+    EXPECT_THAT(table, HasSubstr("do not predict"));
+}
+
+TEST_F(ReportFixture, JUnitCountsFailuresAndEscapes) {
+    const std::string xml = report_junit(report());
+    EXPECT_THAT(
+        xml,
+        HasSubstr("<testsuite name=\"A &amp; &quot;B&quot;\" tests=\"7\" failures=\"1\" errors=\"0\" skipped=\"1\""));
+    EXPECT_THAT(xml, HasSubstr("name=\"speedup of F2BD &lt;1&gt; at least 1.9 at most 2.1\"></testcase>"));
+    EXPECT_THAT(xml, HasSubstr("<skipped message=\"no &lt;barrier&gt;\"/>"));
+    EXPECT_THAT(xml, Not(HasSubstr("<1>")));
+}
+
+struct TemporaryFolder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("sheer-report-test-" + std::to_string(getpid()));
+    TemporaryFolder() { std::filesystem::create_directories(path); }
+    ~TemporaryFolder() { std::filesystem::remove_all(path); }
+};
+
+TEST(PictureFile, PngKeepsEveryLevel) {
+    Image8 image(16, 16);
+    for (int i = 0; i < 256; ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            image.pixel(i % 16, i / 16)[channel] = static_cast<std::uint8_t>(channel == 1 ? 255 - i : i);
+    const TemporaryFolder folder;
+    FolderSink sink(folder.path);
+    const std::string bytes = encode_png(image);
+    EXPECT_EQ(sink.put(sha256_hex(bytes), bytes, "ramp.png", "image/png"), "images/ramp.png");
+    const Image8 read = read_png((folder.path / "images/ramp.png").string());
+    EXPECT_EQ(read.width_px, 16);
+    EXPECT_EQ(read.rgb, image.rgb);
+}
+
+TEST(PictureFile, MissingFileIsNamed) {
+    try {
+        read_png("no/such.png");
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no/such.png"));
+    }
+}
+
+TEST(ContentSinkTest, NamesFilesByContent) {
+    const TemporaryFolder folder;
+    ContentSink sink(folder.path);
+    EXPECT_EQ(sink.put("abc", "bytes", "x.png", "image/png"), "/api/v1/blobs/abc");
+    std::ifstream file(folder.path / "abc");
+    std::string text;
+    file >> text;
+    EXPECT_EQ(text, "bytes");
+}
+
+}  // namespace
+
+}  // namespace sheer

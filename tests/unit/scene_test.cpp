@@ -1,0 +1,182 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "renderer/scene/random.h"
+#include "renderer/scene/scene_info.h"
+#include "renderer/scene/textures.h"
+
+namespace sheer {
+
+namespace {
+
+using nlohmann::json;
+
+Geometry build_quads(const json& fields, int width_px = 512, int height_px = 512) {
+    json scene = {{"type", "quads"}};
+    scene.update(fields);
+    const Spec spec =
+        parse_spec({{"scene", scene}, {"methods", {"b2f"}}, {"image", {{"width", width_px}, {"height", height_px}}}});
+    return find_scene("quads")->build(spec.scene, spec.image);
+}
+
+/// Left, top, right, bottom in pixels from the top left.
+struct Box {
+    double x0, y0, x1, y1;
+    double width() const { return x1 - x0; }
+    double height() const { return y1 - y0; }
+};
+
+std::vector<Box> boxes_px(const Geometry& geometry, double width_px, double height_px) {
+    std::vector<Box> all;
+    for (const Primitive& primitive : geometry.primitives) {
+        Box box{1e9, 1e9, -1e9, -1e9};
+        for (std::uint32_t i = 0; i < primitive.index_count; ++i) {
+            const glm::vec3 at = geometry.vertices[geometry.indices[primitive.first_index + i]].position;
+            const double x = (at.x + 1) / 2 * width_px, y = (1 - at.y) / 2 * height_px;
+            box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
+        }
+        all.push_back(box);
+    }
+    return all;
+}
+
+/// Published first outputs of SplitMix64 for the seed 1234567.
+TEST(Random, IsSplitMix64) {
+    Random random(1234567);
+    EXPECT_EQ(random.next(), 6457827717110365317u);
+    EXPECT_EQ(random.next(), 3203168211198807973u);
+    EXPECT_EQ(random.next(), 9817491932198370423u);
+}
+
+struct SizeRow {
+    std::string distribution;
+    double min_px, max_px, centre_spread;
+};
+
+/// Section 3 of the paper, in its window of 512 x 512 pixels.
+class QuadSizes : public testing::TestWithParam<SizeRow> {};
+
+TEST_P(QuadSizes, AreThePapers) {
+    const SizeRow& row = GetParam();
+    const Geometry geometry = build_quads({{"distribution", row.distribution}, {"count", 500}});
+    ASSERT_EQ(geometry.primitives.size(), 500u);
+    double smallest = 1e9, largest = 0, furthest = 0;
+    for (const Box& box : boxes_px(geometry, 512, 512)) {
+        EXPECT_NEAR(box.width(), box.height(), 1e-3);
+        EXPECT_GE(box.x0, -1e-3);
+        EXPECT_GE(box.y0, -1e-3);
+        EXPECT_LE(box.x1, 512.001);
+        EXPECT_LE(box.y1, 512.001);
+        smallest = std::min(smallest, box.width());
+        largest = std::max(largest, box.width());
+        for (const double middle : {(box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2})
+            furthest = std::max(furthest, std::abs(middle / 512 - 0.5));
+    }
+    EXPECT_GE(smallest, row.min_px - 1e-3);
+    EXPECT_LE(largest, row.max_px + 1e-3);
+    // Of 500 quads some come within 2 % of the ends of the range.
+    EXPECT_LE(smallest, row.min_px + 0.02 * (row.max_px - row.min_px) + 1e-3);
+    EXPECT_GE(largest, row.max_px - 0.02 * (row.max_px - row.min_px) - 1e-3);
+    if (row.centre_spread > 0) {
+        EXPECT_LE(furthest, row.centre_spread + 1e-6);
+        EXPECT_GE(furthest, 0.98 * row.centre_spread);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, QuadSizes,
+                         testing::Values(SizeRow{"random", 26, 256, 0}, SizeRow{"small", 154, 154, 0},
+                                         SizeRow{"big", 307, 307, 0}, SizeRow{"full", 512, 512, 0},
+                                         SizeRow{"thick", 154, 154, 0.1}, SizeRow{"medium", 154, 154, 0.2},
+                                         SizeRow{"scarce", 154, 154, 0.35}),
+                         [](const testing::TestParamInfo<SizeRow>& row) { return row.param.distribution; });
+
+TEST(Quads, StaySquareAndVisibleInAWideImage) {
+    const Geometry geometry = build_quads({{"distribution", "big"}, {"count", 100}}, 1024, 256);
+    for (const Box& box : boxes_px(geometry, 1024, 256)) {
+        EXPECT_NEAR(box.width(), 256 * 307.0 / 512, 1e-2);
+        EXPECT_NEAR(box.width(), box.height(), 1e-2);
+        EXPECT_LE(box.x1, 1024.01);
+        EXPECT_LE(box.y1, 256.01);
+    }
+}
+
+TEST(Quads, HaveDepthsOfTheirOwnAndDependOnTheSeed) {
+    const Geometry first = build_quads({{"count", 300}, {"seed", 5}}),
+                   again = build_quads({{"count", 300}, {"seed", 5}}),
+                   other = build_quads({{"count", 300}, {"seed", 6}});
+    std::set<float> depths;
+    for (std::size_t i = 0; i < 300; ++i) {
+        depths.insert(first.primitives[i].depth);
+        EXPECT_EQ(first.primitives[i].depth, again.primitives[i].depth);
+        EXPECT_EQ(first.vertices[4 * i].position, again.vertices[4 * i].position);
+    }
+    EXPECT_EQ(depths.size(), 300u);
+    EXPECT_GT(*depths.begin(), 0);
+    EXPECT_LT(*depths.rbegin(), 1);
+    EXPECT_NE(first.vertices[0].position, other.vertices[0].position);
+}
+
+/// FNV-1a over the bytes: the same on every platform, so a change of the picture is seen.
+std::uint64_t checksum(const std::vector<std::uint8_t>& bytes) {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211u;
+    return hash;
+}
+
+class Textures : public testing::TestWithParam<std::string> {};
+
+TEST_P(Textures, HaveAllMipmapsAndFourVariants) {
+    std::set<std::uint64_t> pictures;
+    for (int variant = 0; variant < 4; ++variant) {
+        const auto levels = make_texture(GetParam(), 64, variant);
+        ASSERT_EQ(levels.size(), 7u);
+        for (std::size_t level = 0; level < levels.size(); ++level) {
+            EXPECT_EQ(levels[level].size_px, 64 >> level);
+            EXPECT_EQ(levels[level].rgba.size(),
+                      static_cast<std::size_t>(levels[level].size_px) * levels[level].size_px * 4);
+        }
+        pictures.insert(checksum(levels[0].rgba));
+        // The mean alpha of the whole survives in the last level: seven halvings round half a level each.
+        double sum = 0;
+        for (std::size_t i = 3; i < levels[0].rgba.size(); i += 4) sum += levels[0].rgba[i];
+        EXPECT_NEAR(levels[6].rgba[3], sum / (64 * 64), 3.5);
+    }
+    EXPECT_EQ(pictures.size(), 4u);
+}
+
+TEST_P(Textures, CoverAPartOfTheSquare) {
+    const auto level = make_texture(GetParam(), 128, 0).front();
+    std::size_t clear = 0, dense = 0;
+    for (std::size_t i = 3; i < level.rgba.size(); i += 4) {
+        clear += level.rgba[i] < 8;
+        dense += level.rgba[i] > 100;
+    }
+    const std::size_t texels = 128 * 128;
+    EXPECT_GT(clear, texels / 10);
+    EXPECT_GT(dense, texels / 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Textures, testing::Values("leaf", "smoke"),
+                         [](const testing::TestParamInfo<std::string>& image) { return image.param; });
+
+TEST(TexturesByName, UnknownOnesThrow) {
+    EXPECT_THROW(make_texture("teapot", 4, 0), std::invalid_argument);
+}
+
+TEST(Scenes, DescribeThemselves) {
+    for (const SceneInfo& scene : all_scenes()) {
+        SCOPED_TRACE(scene.id);
+        EXPECT_FALSE(scene.name.empty());
+        EXPECT_FALSE(scene.summary.empty());
+        EXPECT_FALSE(scene.source.empty());
+        EXPECT_TRUE(scene.build);
+        for (const Param& param : scene.all_parameters()) EXPECT_FALSE(param.summary.empty()) << param.name;
+    }
+}
+
+}  // namespace
+
+}  // namespace sheer
