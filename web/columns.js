@@ -19,12 +19,14 @@ export const TIMING_COLUMNS = [
     path: "timing.initialization",
     head: "Init.",
     unit: "ms",
+    digits: 2,
     title: "Initialization: preparing the method's own targets, part of the frame",
   },
   {
     path: "timing.finalization",
     head: "Final.",
     unit: "ms",
+    digits: 2,
     title: "Finalization: bringing the result into the image, part of the frame",
   },
 ];

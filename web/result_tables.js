@@ -134,6 +134,7 @@ function decimals_of(results, column) {
 export function timing_table(results, context) {
   const columns = TIMING_COLUMNS.filter((column) => results.some((result) => is_number(value_at(result, column.path))));
   const decimals = column_decimals(results.map((result) => value_at(result, "timing.median")));
+  const decimals_in = (column) => (column.digits ? decimals_of(results, column) : decimals);
   const with_speedup = results.some((result) => result.speedup);
   const best = new Map([...columns, SPEEDUP_COLUMN].map((column) => [column, best_results(results, column)]));
   const end = axis_end(Math.max(0, ...results.flatMap(timing_samples)));
@@ -150,7 +151,7 @@ export function timing_table(results, context) {
       { "data-label": result.label },
       heading,
       el("td", { class: "strip-cell" }, samples.length > 0 ? timing_strip(samples, end, mark) : null),
-      columns.map((column) => number_cell(result, column, decimals, best.get(column))),
+      columns.map((column) => number_cell(result, column, decimals_in(column), best.get(column))),
       with_speedup ? speedup_cell(result, decimals_of(results, SPEEDUP_COLUMN), best.get(SPEEDUP_COLUMN)) : null,
     );
   });
