@@ -55,12 +55,12 @@ Request plain_request(bhttp::request<bhttp::string_body>&& message) {
     return request;
 }
 
-/// The problem that a request which cannot be read deserves, or nothing where nobody is left to hear it.
+/// The problem that a request which cannot be read deserves, or nothing where nobody is left to hear it: the other side
+/// has gone, or it was too slow and the stream has closed itself.
 std::optional<Response> problem_of(beast::error_code error) {
     if (error == bhttp::error::body_limit) return problem(413, "The body is too long.");
     if (error == bhttp::error::header_limit || error == bhttp::error::buffer_overflow)
         return problem(431, "The header is too long.");
-    if (error == beast::error::timeout) return problem(408, "The request did not come in time.");
     if (error == bhttp::error::end_of_stream || error == bhttp::error::partial_message) return std::nullopt;
     if (error.category() == make_error_code(bhttp::error::bad_method).category())
         return problem(400, "This is not HTTP/1.1: " + error.message() + ".");

@@ -1,0 +1,203 @@
+// Starts the real program for a test, on a port and in a folder of its own.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import http from "node:http";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { setTimeout as sleep } from "node:timers/promises";
+
+const PROGRAM = process.env.SHEER;
+assert.ok(PROGRAM, "SHEER must be the path of the program");
+
+export { sleep };
+
+/** A comparison that takes well under a second. */
+export const QUICK = {
+  title: "One red layer", image: { width: 16, height: 16 },
+  scene: { type: "layers", layers: [{ rect: [0, 0, 1, 1], depth: 0.5, color: [1, 0, 0], alpha: 0.5 }] },
+  methods: ["b2f", "f2b"], timing: { warmup: 1, rounds: 1 },
+};
+
+/** One that is timed for `seconds`. */
+export function lasting(seconds, title = "lasting") {
+  return { ...QUICK, title, timing: { warmup: 1, rounds: 1000, max_seconds: seconds }, image: { width: 512, height: 512 },
+           scene: { type: "quads", count: 64, shading: "4x4-textures", texture: { image: "leaf", size: 256 } } };
+}
+
+/** Asks again until `question` gives something true. */
+export async function until(question, what, limit_s = 60) {
+  const deadline = Date.now() + limit_s * 1000;
+  while (Date.now() < deadline) {
+    const answer = await question();
+    if (answer) return answer;
+    await sleep(20);
+  }
+  assert.fail(`${what}: not within ${limit_s} s`);
+}
+
+/** The ids of a process's children. */
+function children_of(pid) {
+  const children = [];
+  for (const name of readdirSync("/proc").filter((entry) => /^\d+$/.test(entry))) {
+    try {
+      const [, parent] = /^\d+ \(.*\) \S (\d+)/s.exec(readFileSync(`/proc/${name}/stat`, "utf8"));
+      if (Number(parent) === pid) children.push(Number(name));
+    } catch {
+      // It ended meanwhile.
+    }
+  }
+  return children;
+}
+
+function command_line(pid) {
+  try {
+    return readFileSync(`/proc/${pid}/cmdline`, "utf8").split("\0");
+  } catch {
+    return [];
+  }
+}
+
+export function is_alive(pid) {
+  try {
+    return !/^\d+ \(.*\) [ZX]/s.test(readFileSync(`/proc/${pid}/stat`, "utf8"));
+  } catch {
+    return false;
+  }
+}
+
+export class Service {
+  constructor(config = {}, folder = mkdtempSync(join(tmpdir(), "sheer-service-"))) {
+    this.folder = folder;
+    this.data = join(folder, "data");
+    this.config = join(folder, "server.json");
+    this.listen = "127.0.0.1:0";
+    writeFileSync(this.config, JSON.stringify(config));
+  }
+
+  async start(...more_arguments) {
+    this.log = "";
+    this.process = spawn(PROGRAM, ["serve", "--listen", this.listen, "--data", this.data, "--config", this.config,
+                                   ...more_arguments], { stdio: ["ignore", "pipe", "pipe"] });
+    this.process.stderr.on("data", (text) => { this.log += text; });
+    this.ended = new Promise((resolve) => this.process.on("exit", (code, signal) => resolve({ code, signal })));
+    let output = "";
+    this.process.stdout.on("data", (text) => { output += text; });
+    const line = () => /^Sheer listens on (http:\/\/\S+)\n/.exec(output);
+    await until(() => line() || this.process.exitCode !== null, "the service listens");
+    assert.ok(line(), `the service ended: ${this.log}`);
+    this.origin = line()[1];
+    this.api = `${this.origin}/api/v1`;
+    return this;
+  }
+
+  async stop() {
+    if (this.process.exitCode === null && this.process.signalCode === null) this.process.kill("SIGTERM");
+    return this.ended;
+  }
+
+  async end() {
+    await this.stop();
+    rmSync(this.folder, { recursive: true, force: true });
+  }
+
+  workers() { return children_of(this.process.pid).filter((pid) => command_line(pid)[1] === "worker"); }
+
+  /** The children that render jobs, without those that probe. */
+  renderers() {
+    return this.workers().flatMap(children_of).filter((pid) => command_line(pid).some((word) => word.endsWith("spec.json")));
+  }
+
+  /** The worker whose child `renderer` is. */
+  worker_of(renderer) { return this.workers().find((pid) => children_of(pid).includes(renderer)); }
+
+  post(spec, headers = {}) {
+    const body = typeof spec === "string" ? spec : JSON.stringify(spec);
+    return fetch(`${this.api}/reports`, { method: "POST", body, headers: { "Content-Type": "application/json", ...headers } });
+  }
+
+  async submit(spec) {
+    const response = await this.post(spec);
+    assert.equal(response.status, 202);
+    return (await response.json()).id;
+  }
+
+  async report(id) {
+    const response = await fetch(`${this.api}/reports/${id}`);
+    assert.equal(response.status, 200);
+    return response.json();
+  }
+
+  async reports(query = "") {
+    const response = await fetch(`${this.api}/reports${query}`);
+    assert.equal(response.status, 200);
+    return (await response.json()).reports;
+  }
+
+  /** The report once it is in one of `statuses`. */
+  reached(id, ...statuses) {
+    return until(async () => {
+      const report = await this.report(id);
+      return statuses.includes(report.status) && report;
+    }, `report ${id} is ${statuses.join(" or ")}`, 120);
+  }
+
+  settled(id) { return this.reached(id, "done", "failed", "cancelled"); }
+
+  /** A request with headers that fetch does not let one set. */
+  raw(method, path, headers = {}, body = "") {
+    return new Promise((resolve, reject) => {
+      const request = http.request(this.origin + path, { method, headers }, (response) => {
+        let text = "";
+        response.on("data", (chunk) => { text += chunk; });
+        response.on("end", () => resolve({ status: response.statusCode, headers: response.headers, text }));
+      });
+      request.on("error", reject);
+      request.end(body);
+    });
+  }
+}
+
+/** Runs `body` with a started service and ends it whatever happens. */
+export async function with_service(config, body) {
+  const service = new Service(config);
+  try {
+    await service.start();
+    await body(service);
+  } finally {
+    await service.end();
+  }
+}
+
+/** Reads server-sent events until the stream ends or `enough(events)`. */
+export async function read_events(response, enough = () => false) {
+  assert.equal(response.status, 200);
+  assert.match(response.headers.get("content-type"), /^text\/event-stream/);
+  const events = [];
+  let text = "";
+  for await (const chunk of response.body) {
+    text += Buffer.from(chunk).toString();
+    for (let end; (end = text.indexOf("\n\n")) >= 0; text = text.slice(end + 2)) {
+      const event = { comment: text.startsWith(":") };
+      for (const line of text.slice(0, end).split("\n")) {
+        const [, name, value] = /^(\w*): ?(.*)$/.exec(line) ?? [null, "", ""];
+        if (name) event[name] = value;
+      }
+      if (event.data) event.data = JSON.parse(event.data);
+      events.push(event);
+    }
+    if (enough(events)) break;
+  }
+  return events;
+}
+
+export async function assert_problem(response, status) {
+  const text = typeof response.text === "function" ? await response.text() : response.text;
+  const type = typeof response.headers.get === "function" ? response.headers.get("content-type") : response.headers["content-type"];
+  assert.equal(response.status, status, text);
+  assert.equal(type, "application/problem+json");
+  const problem = JSON.parse(text);
+  assert.equal(problem.status, status);
+  assert.ok(problem.title && problem.detail && problem.type);
+  return problem;
+}
