@@ -15,7 +15,7 @@ async function running_job(service, seconds) {
 async function assert_next_job_runs(service) {
   const report = await (await service.post({ ...QUICK, title: "next" }, { Prefer: "wait=60" })).json();
   assert.equal(report.status, "done", service.log);
-  assert.deepEqual(readdirSync(join(service.data, "scratch")), []);
+  await until(() => readdirSync(join(service.data, "scratch")).length === 0, "the scratch is cleaned");
 }
 
 test("a renderer that is killed is tried once more", () => with_service({}, async (service) => {

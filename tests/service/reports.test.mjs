@@ -53,7 +53,7 @@ test("a comparison becomes a report with pictures, and goes when it is deleted",
     assert.equal(Number(head.headers.get("content-length")), bytes.length);
   }
   assert.deepEqual(new Set(files_below(join(service.data, "blobs"))), new Set(named.map((picture) => picture.sha256)));
-  assert.deepEqual(readdirSync(join(service.data, "scratch")), []);
+  await until(() => readdirSync(join(service.data, "scratch")).length === 0, "the scratch is cleaned");
 
   const page = await fetch(`${service.api}/reports/${id}/report.html`);
   assert.match(page.headers.get("content-type"), /^text\/html/);

@@ -160,8 +160,14 @@ TEST_F(WorkerTest, AJobThatAnotherWorkerTookIsLeftToIt) {
 
 TEST_F(WorkerTest, AStopGivesTheJobBack) {
     const std::string id = submit();
-    // The renderer stops its worker, which is this process; the signal waits in the descriptor.
-    run_with(fmt::format("kill -TERM {}; sleep 60", getpid()));
+    // To this thread, since threads that other tests left behind do not block the signal.
+    std::thread stopper([&, worker_thread = pthread_self()] {
+        SqliteStore other(m_options.data, m_rules, m_clock);
+        while (other.find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
+        pthread_kill(worker_thread, SIGTERM);
+    });
+    run_with("sleep 60");
+    stopper.join();
     EXPECT_TRUE(m_stop.requested());
     EXPECT_EQ(status(id), Status::queued);
     EXPECT_EQ(lease().attempt, 1);
