@@ -88,8 +88,8 @@ std::string report_table(const json& report) {
         text +=
             fmt::format("{}  {} of {} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",
                         check["metric"].get<std::string>(), check["method"].get<std::string>(), check["value"].dump());
-        if (!check["min"].is_null()) text += fmt::format(", at least {}", check["min"].dump());
-        if (!check["max"].is_null()) text += fmt::format(", at most {}", check["max"].dump());
+        if (!check["min"].is_null()) text += fmt::format(", at least {:g}", check["min"].get<double>());
+        if (!check["max"].is_null()) text += fmt::format(", at most {:g}", check["max"].get<double>());
         text += "\n";
     }
     return text;

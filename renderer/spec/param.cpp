@@ -180,6 +180,11 @@ bool may_be_absent(const Param& param) {
     return param.kind == Param::Kind::object && std::ranges::all_of(param.fields, may_be_absent);
 }
 
+/// A whole number where the field is one.
+json bound(const Param& param, double value) {
+    return param.kind == Param::Kind::integer ? json(static_cast<std::int64_t>(value)) : json(value);
+}
+
 json value_schema(const Param& param) {
     json schema = json::object();
     switch (param.kind) {
@@ -214,8 +219,8 @@ json value_schema(const Param& param) {
             break;
     }
     json range = json::object();
-    if (std::isfinite(param.min)) range[param.exclusive ? "exclusiveMinimum" : "minimum"] = param.min;
-    if (std::isfinite(param.max)) range[param.exclusive ? "exclusiveMaximum" : "maximum"] = param.max;
+    if (std::isfinite(param.min)) range[param.exclusive ? "exclusiveMinimum" : "minimum"] = bound(param, param.min);
+    if (std::isfinite(param.max)) range[param.exclusive ? "exclusiveMaximum" : "maximum"] = bound(param, param.max);
     if (param.kind == Param::Kind::numbers) {
         range["type"] = "number";
         schema["items"] = range;
@@ -334,8 +339,8 @@ json to_json(const std::vector<Param>& fields) {
     for (const Param& param : fields) {
         json one = {{"name", param.name}, {"kind", kind_name(param.kind)}, {"summary", param.summary},
                     {"unit", param.unit}, {"default", default_of(param)},  {"required", !may_be_absent(param)}};
-        if (std::isfinite(param.min)) one["min"] = param.min;
-        if (std::isfinite(param.max)) one["max"] = param.max;
+        if (std::isfinite(param.min)) one["min"] = bound(param, param.min);
+        if (std::isfinite(param.max)) one["max"] = bound(param, param.max);
         if (param.exclusive) one["exclusive"] = true;
         if (!param.choices.empty()) one["choices"] = param.choices;
         if (!param.fields.empty()) one["fields"] = to_json(param.fields);

@@ -55,7 +55,8 @@ std::vector<Param> spec_fields() {
         any("tags", "names and texts to find the report by", json::object()),
         Param::object(
             "image", "the picture that is rendered",
-            {Param::integer("width", "columns", "px", 512, 1, 4096), Param::integer("height", "rows", "px", 512, 1, 4096),
+            {Param::integer("width", "columns", "px", 512, 1, 4096),
+             Param::integer("height", "rows", "px", 512, 1, 4096),
              Param::numbers("background", "red, green, blue behind everything", "", {0, 0, 0}, 0, 1),
              Param::choice("format", "what the methods blend into", "rgba8", {"rgba8", "rgba16f", "rgba32f"})}),
         any("scene", "an object with the type of the scene and its parameters", nullptr),
@@ -267,7 +268,10 @@ Spec parse_spec_text(const std::string& text) {
     try {
         return parse_spec(json::parse(text));
     } catch (const json::parse_error& error) {
-        throw SpecError(std::vector<FieldError>{{"", fmt::format("is not JSON: {}", error.what())}});
+        // The library's text begins with the name of its exception in brackets.
+        const std::string message = error.what();
+        const std::string detail = message.substr(std::min(message.find("] ") + 2, message.size()));
+        throw SpecError(std::vector<FieldError>{{"", "is not JSON: " + detail}});
     }
 }
 

@@ -34,6 +34,9 @@ int guarded(const std::function<int()>& action) {
     } catch (const SpecError& error) {
         fmt::print(stderr, "{}\n", error.what());
         return exit_bad_spec;
+    } catch (const UsageError& error) {
+        fmt::print(stderr, "sheer: {}\n", error.what());
+        return exit_bad_spec;
     } catch (const std::exception& error) {
         fmt::print(stderr, "sheer: {}\n", error.what());
         return exit_render_failed;
@@ -43,10 +46,9 @@ int guarded(const std::function<int()>& action) {
 ReportFolder::ReportFolder(std::filesystem::path folder) : m_folder(std::move(folder)) {
     if (!m_folder.has_filename()) m_folder = m_folder.parent_path();
     const bool exists = std::filesystem::exists(m_folder);
-    if (exists && !std::filesystem::is_directory(m_folder))
-        throw std::runtime_error(m_folder.string() + " is not a folder");
+    if (exists && !std::filesystem::is_directory(m_folder)) throw UsageError(m_folder.string() + " is not a folder");
     if (exists && !std::filesystem::is_empty(m_folder) && !std::filesystem::exists(m_folder / "report.json"))
-        throw std::runtime_error(m_folder.string() + " holds something that is not a report; choose another folder");
+        throw UsageError(m_folder.string() + " holds something that is not a report; choose another folder");
     m_partial = m_folder;
     m_partial += fmt::format(".partial-{}", getpid());
     std::filesystem::create_directories(m_partial);

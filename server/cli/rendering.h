@@ -1,6 +1,8 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "renderer/gl/context.h"
@@ -14,11 +16,16 @@ void add_context_options(CLI::App& command, gl::ContextRequest& request);
 /// Throws SpecError, also for a file that cannot be read, naming it.
 Spec load_spec(const std::string& path);
 
+/// What was asked for cannot be done as asked. Exit code 2.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Runs `action` and turns what it throws into a message on stderr and an exit code.
 int guarded(const std::function<int()>& action);
 
 /// Writes a report whole: `fill` gets a temporary folder beside `folder`, which then takes the place of `folder`.
-/// Throws std::runtime_error, before anything is done, if `folder` holds something that is not a report.
+/// Throws UsageError, before anything is done, if `folder` holds something that is not a report.
 class ReportFolder {
   public:
     explicit ReportFolder(std::filesystem::path folder);

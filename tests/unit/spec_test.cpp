@@ -171,8 +171,8 @@ TEST(Schema, SaysWhatTheReaderDoes) {
     EXPECT_EQ(schema["additionalProperties"], false);
     EXPECT_EQ(schema["required"], json({"scene", "methods"}));
     EXPECT_EQ(schema["properties"]["image"]["properties"]["width"], json({{"type", "integer"},
-                                                                          {"minimum", 1.0},
-                                                                          {"maximum", 4096.0},
+                                                                          {"minimum", 1},
+                                                                          {"maximum", 4096},
                                                                           {"default", 512},
                                                                           {"description", "columns [px]"}}));
     EXPECT_EQ(schema["properties"]["scene"]["oneOf"].size(), all_scenes().size());
