@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-#include "renderer/frame/accumulation.h"
+#include "renderer/frame/front_to_back.h"
 #include "renderer/frame/overdraw.h"
 #include "renderer/methods/method.h"
 
@@ -157,41 +157,12 @@ class LinkedLists : public Method {
     std::int64_t m_memory_bytes = 0;
 };
 
-class SortedFloats : public Method {
-  public:
-    explicit SortedFloats(const MethodSetup& setup)
-        : m_scene(setup.scene),
-          m_opaque(setup.gl, setup.scene, setup.target),
-          m_accumulation(setup.gl, setup.target, PixelFormat::rgba32f),
-          m_program(setup.scene.make_program("exact: sorted", gl::shader_file("methods/f2b.glsl"))) {}
-
-    void render(gl::FrameTimer& timer) override {
-        m_opaque.draw(timer);
-        {
-            const auto pass = timer.pass("transparent", gl::Phase::transparent);
-            m_accumulation.clear(1);
-            m_accumulation.begin_blending();
-            m_scene.draw_transparent(m_program, Order::near_to_far);
-        }
-        const auto pass = timer.pass("composite", gl::Phase::finalization);
-        m_accumulation.composite();
-    }
-
-    std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
-
-  private:
-    const Scene& m_scene;
-    OpaquePass m_opaque;
-    Accumulation m_accumulation;
-    gl::Program m_program;
-};
-
 std::unique_ptr<Method> make(const MethodSetup& setup) {
     const auto form = setup.parameters.at("form").get<std::string>();
     if (form == "sorted" && !setup.scene.parallel())
         throw Unsupported("form sorted needs parallel primitives; this scene's may intersect");
     if (form == "lists" || !setup.scene.parallel()) return std::make_unique<LinkedLists>(setup);
-    return std::make_unique<SortedFloats>(setup);
+    return std::make_unique<FrontToBack>(setup, PixelFormat::rgba32f);
 }
 
 }  // namespace

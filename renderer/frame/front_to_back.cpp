@@ -1,0 +1,26 @@
+#include "renderer/frame/front_to_back.h"
+
+namespace sheer {
+
+FrontToBack::FrontToBack(const MethodSetup& setup, PixelFormat accumulation_format)
+    : m_scene(setup.scene),
+      m_opaque(setup.gl, setup.scene, setup.target),
+      m_accumulation(setup.gl, setup.target, accumulation_format),
+      m_program(setup.scene.make_program("front to back", gl::shader_file("methods/f2b.glsl"))) {}
+
+void FrontToBack::render(gl::FrameTimer& timer) {
+    m_opaque.draw(timer);
+    {
+        const auto pass = timer.pass("clear", gl::Phase::initialization);
+        m_accumulation.clear(1);
+    }
+    {
+        const auto pass = timer.pass("transparent", gl::Phase::transparent);
+        m_accumulation.begin_blending();
+        m_scene.draw_transparent(m_program, Order::near_to_far);
+    }
+    const auto pass = timer.pass("composite", gl::Phase::finalization);
+    m_accumulation.composite();
+}
+
+}  // namespace sheer
