@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -10,34 +11,79 @@ namespace sheer::test {
 /// the middle of each pixel, what opaque ones hide, and the over operator from the background forward.
 class Compositor {
   public:
-    /// `black` is what is left of everything where no transmittance is.
-    enum class Order { by_depth, by_submission, black };
+    using Color = std::array<double, 3>;
+    struct Fragment {
+        float depth;
+        double alpha;
+        Color color;
+    };
+    /// What a pixel holds: the opaque picture, and the transparent fragments that it does not hide, as submitted.
+    struct Stack {
+        Color below;
+        std::vector<Fragment> fragments;
+    };
 
-    Compositor(const nlohmann::json& scene, int size_px, std::array<double, 3> background)
+    /// `black` is what is left of everything where no transmittance is; `alpha_test` is at the reference 0.5.
+    enum class Order { by_depth, by_submission, black, alpha_test };
+
+    Compositor(const nlohmann::json& scene, int size_px, Color background)
         : m_layers(scene.at("layers")), m_size_px(size_px), m_background(background) {}
 
-    std::array<double, 3> pixel(int x, int y, Order order) const {
-        if (order == Order::black) return {0, 0, 0};
-        std::array<double, 3> color = m_background;
+    Stack stack(int x, int y) const {
+        Stack stack{m_background, {}};
         double opaque_depth = 2;
         for (const auto& layer : m_layers) {
             // Of opaque layers at one depth the later submitted wins.
             if (layer.at("opaque") && covers(layer, x, y) && depth(layer) <= opaque_depth) {
                 opaque_depth = depth(layer);
-                color = layer.at("color").get<std::array<double, 3>>();
+                stack.below = layer.at("color").get<Color>();
             }
         }
-        std::vector<nlohmann::json> visible;
         for (const auto& layer : m_layers)
-            if (!layer.at("opaque") && covers(layer, x, y) && depth(layer) <= opaque_depth) visible.push_back(layer);
-        if (order == Order::by_depth)
-            std::ranges::stable_sort(visible, [](const auto& a, const auto& b) { return depth(a) > depth(b); });
-        for (const auto& layer : visible) {
-            const double alpha = layer.at("alpha");
-            for (int i = 0; i < 3; ++i)
-                color[i] = alpha * layer.at("color").at(i).get<double>() + (1 - alpha) * color[i];
+            if (!layer.at("opaque") && covers(layer, x, y) && depth(layer) <= opaque_depth)
+                stack.fragments.push_back({depth(layer), layer.at("alpha"), layer.at("color").get<Color>()});
+        return stack;
+    }
+
+    Color pixel(int x, int y, Order order) const {
+        Stack seen = stack(x, y);
+        switch (order) {
+            case Order::black:
+                return {0, 0, 0};
+            case Order::by_depth:
+                std::ranges::stable_sort(seen.fragments, std::greater(), &Fragment::depth);
+                return over(seen);
+            case Order::by_submission:
+                return over(seen);
+            case Order::alpha_test:
+                return nearest(seen, 0.5, seen.below);
+        }
+        return {};
+    }
+
+    /// The over operator, from the first fragment to the last.
+    static Color over(const Stack& stack) {
+        Color color = stack.below;
+        for (const Fragment& fragment : stack.fragments) color = mix(color, fragment.color, fragment.alpha);
+        return color;
+    }
+
+    /// The nearest fragment of at least this alpha; of equal depths the later submitted.
+    static Color nearest(const Stack& stack, double least_alpha, const Color& otherwise) {
+        float nearest_depth = 2;
+        Color color = otherwise;
+        for (const Fragment& fragment : stack.fragments) {
+            if (fragment.alpha < least_alpha || fragment.depth > nearest_depth) continue;
+            nearest_depth = fragment.depth;
+            color = fragment.color;
         }
         return color;
+    }
+
+    static Color mix(const Color& a, const Color& b, double weight_of_b) {
+        Color mixed;
+        for (std::size_t i = 0; i < 3; ++i) mixed[i] = (1 - weight_of_b) * a[i] + weight_of_b * b[i];
+        return mixed;
     }
 
   private:
@@ -51,7 +97,7 @@ class Compositor {
 
     nlohmann::json m_layers;
     int m_size_px;
-    std::array<double, 3> m_background;
+    Color m_background;
 };
 
 }  // namespace sheer::test

@@ -35,6 +35,7 @@ const std::vector<MethodRow>& rows() {
         // The transmittance starts at 0, so neither layers nor background come through.
         {{{"id", "f2bx"}}, Order::black, true},
         {{{"id", "unsorted"}}, Order::by_submission, true},
+        {{{"id", "alpha_test"}}, Order::alpha_test, true},
         {{{"id", "exact"}, {"form", "lists"}, {"label", "lists"}}, Order::by_depth, false},
         {{{"id", "exact"}, {"form", "sorted"}, {"label", "sorted"}}, Order::by_depth, false},
         {{{"id", "depth_peeling"}}, Order::by_depth, false},

@@ -1,0 +1,58 @@
+// Alpha testing: one of the alternatives that Hathaway weighs in "Alpha Blending as a Post-Process", GPU Pro (2010),
+// section 3.2. A fragment is either dropped or drawn as if it were opaque, with depth test and depth writes.
+// Good at: no sorting, no blending, intersections right per pixel. Bad at: translucency is lost, edges are jagged.
+// Parameters: `reference` 0..1, 0.5: the least alpha that is drawn.
+#include "renderer/methods/method.h"
+
+namespace sheer {
+
+namespace {
+
+class AlphaTest : public Method {
+  public:
+    explicit AlphaTest(const MethodSetup& setup)
+        : m_gl(setup.gl),
+          m_scene(setup.scene),
+          m_target(setup.target),
+          m_opaque(setup.gl, setup.scene, setup.target),
+          m_program(setup.scene.make_program("alpha test", gl::shader_file("methods/alpha_test.glsl"))) {
+        m_program.set("u_reference", setup.parameters.at("reference").get<float>());
+    }
+
+    void render(gl::FrameTimer& timer) override {
+        m_opaque.draw(timer);
+        const auto pass = timer.pass("transparent", gl::Phase::transparent);
+        begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
+        m_gl.Enable(GL_DEPTH_TEST);
+        m_gl.DepthFunc(GL_LEQUAL);
+        m_scene.draw_transparent(m_program, Order::submission);
+    }
+
+  private:
+    const gl::Functions& m_gl;
+    const Scene& m_scene;
+    const Target& m_target;
+    OpaquePass m_opaque;
+    gl::Program m_program;
+};
+
+}  // namespace
+
+MethodInfo method_alpha_test() {
+    return {
+        .id = "alpha_test",
+        .name = "Alpha test",
+        .kind = "unsorted, no blending",
+        .summary = "Fragments of little alpha are dropped, all others are drawn as if they were opaque.",
+        .paper =
+            "Hathaway, Alpha Blending as a Post-Process, GPU Pro, 2010, section 3.2 (an alternative weighed there)",
+        .good_at = "No sorting, no blending, no extra memory; intersecting primitives are resolved per pixel.",
+        .bad_at = "Nothing is translucent any more; edges are jagged and sparkle in motion.",
+        .memory = "0 bytes per pixel",
+        .needs_sorting = false,
+        .parameters = {Param::number("reference", "the least alpha that is drawn; at 0 everything is", "", 0.5, 0, 1)},
+        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> { return std::make_unique<AlphaTest>(setup); },
+    };
+}
+
+}  // namespace sheer
