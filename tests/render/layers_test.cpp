@@ -34,6 +34,8 @@ const std::vector<MethodRow>& rows() {
          true},
         // The transmittance starts at 0, so neither layers nor background come through.
         {{{"id", "f2bx"}}, Order::black, true},
+        // At threshold 0 nothing is marked.
+        {{{"id", "depth_marks"}, {"threshold", 0}, {"interval", 3}}, Order::by_depth, true},
         {{{"id", "unsorted"}}, Order::by_submission, true},
         {{{"id", "alpha_test"}}, Order::alpha_test, true},
         {{{"id", "exact"}, {"form", "lists"}, {"label", "lists"}}, Order::by_depth, false},
