@@ -24,7 +24,7 @@ class Compositor {
     };
 
     /// `black` is what is left of everything where no transmittance is; `alpha_test` is at the reference 0.5.
-    enum class Order { by_depth, by_submission, black, alpha_test };
+    enum class Order { by_depth, by_submission, black, alpha_test, meshkin_simple, meshkin_full };
 
     Compositor(const nlohmann::json& scene, int size_px, Color background)
         : m_layers(scene.at("layers")), m_size_px(size_px), m_background(background) {}
@@ -57,6 +57,10 @@ class Compositor {
                 return over(seen);
             case Order::alpha_test:
                 return nearest(seen, 0.5, seen.below);
+            case Order::meshkin_simple:
+                return meshkin(seen, false);
+            case Order::meshkin_full:
+                return meshkin(seen, true);
         }
         return {};
     }
@@ -76,6 +80,28 @@ class Compositor {
             if (fragment.alpha < least_alpha || fragment.depth > nearest_depth) continue;
             nearest_depth = fragment.depth;
             color = fragment.color;
+        }
+        return color;
+    }
+
+    /// Meshkin's slides 20 and 34; where there is nothing to sum, what is below.
+    static Color meshkin(const Stack& stack, bool full) {
+        double alphas = 0, reciprocals = 0, product = 1;
+        Color colors = {};
+        for (const Fragment& fragment : stack.fragments) {
+            if (fragment.alpha == 0) continue;
+            alphas += fragment.alpha;
+            reciprocals += 1 / fragment.alpha;
+            product *= fragment.alpha;
+            for (std::size_t i = 0; i < 3; ++i) colors[i] += fragment.alpha * fragment.color[i];
+        }
+        if (alphas == 0) return stack.below;
+        Color color;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double d = stack.below[i];
+            color[i] = d + colors[i] - d * alphas;
+            if (full) color[i] += d * product - d * reciprocals * product;
+            color[i] = std::clamp(color[i], 0.0, 1.0);
         }
         return color;
     }

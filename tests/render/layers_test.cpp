@@ -17,7 +17,21 @@ struct MethodRow {
     nlohmann::json method;
     Compositor::Order order;
     bool rounds_each_layer;  // blends in the target's format; false where it blends in floats and composites once
+    double (*own_tolerance)(PixelFormat format, double layers) = nullptr;  // where neither of these is how it rounds
 };
+
+/// Meshkin's sums of n colours and n alphas reach n and are rounded n times; in 32 bits the general rule holds. The
+/// opaque picture, rounded by half a level, is weighed by at most n.
+double meshkin_tolerance(PixelFormat format, double layers) {
+    if (format == PixelFormat::rgba32f) return 1e-5 * layers;
+    return layers * (layers + 1) * 0x1p-11 + (format == PixelFormat::rgba8 ? 0.5 * (layers + 1) / 255 : 0x1p-11);
+}
+/// Beside the sums the product, which is rounded n times, times the reciprocals: at most n.
+double meshkin_full_tolerance(PixelFormat format, double layers) {
+    if (format == PixelFormat::rgba32f) return 1e-5 * layers;
+    return meshkin_tolerance(format, layers) + layers * layers * 0x1p-10 +
+           (format == PixelFormat::rgba8 ? 0.5 * layers / 255 : 0);
+}
 
 const std::vector<MethodRow>& rows() {
     using Order = Compositor::Order;
@@ -38,6 +52,11 @@ const std::vector<MethodRow>& rows() {
         {{{"id", "depth_marks"}, {"threshold", 0}, {"interval", 3}}, Order::by_depth, true},
         {{{"id", "unsorted"}}, Order::by_submission, true},
         {{{"id", "alpha_test"}}, Order::alpha_test, true},
+        {{{"id", "meshkin"}}, Order::meshkin_simple, false, meshkin_tolerance},
+        {{{"id", "meshkin"}, {"variant", "full"}, {"label", "full"}},
+         Order::meshkin_full,
+         false,
+         meshkin_full_tolerance},
         {{{"id", "exact"}, {"form", "lists"}, {"label", "lists"}}, Order::by_depth, false},
         {{{"id", "exact"}, {"form", "sorted"}, {"label", "sorted"}}, Order::by_depth, false},
         {{{"id", "depth_peeling"}}, Order::by_depth, false},
@@ -48,6 +67,7 @@ const std::vector<MethodRow>& rows() {
 /// The largest error that rounding may leave in a picture of `layers` blended layers.
 double tolerance(const MethodRow& row, PixelFormat format, std::size_t layers) {
     const auto count = static_cast<double>(layers);
+    if (row.own_tolerance != nullptr) return row.own_tolerance(format, count);
     // Composited once: the opaque picture, what is laid over it and the product are each rounded, by half a level at
     // most.
     const double roundings = row.rounds_each_layer ? count : 1.5;

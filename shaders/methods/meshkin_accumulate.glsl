@@ -1,0 +1,16 @@
+// Slide 29. Set before: FULL, 0 or 1; LARGEST, the largest number that the targets hold.
+
+layout(location = 0) out vec4 o_sums;  // blend ONE, ONE
+#if FULL
+layout(location = 1) out float o_reciprocals;  // blend ONE, ONE
+#endif
+
+void main() {
+    begin_fragment();
+    vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
+    if (work.a == 0.0) discard;
+    o_sums = vec4(work.rgb * work.a, work.a);
+#if FULL
+    o_reciprocals = min(1.0 / work.a, LARGEST);
+#endif
+}
