@@ -132,6 +132,11 @@ void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
     if (m_textures) m_gl.BindTextureUnit(0, m_textures.id());
 }
 
+std::size_t Scene::triangle_count(Order order, std::size_t first, std::size_t count) const {
+    const DrawList& counted = list(order);
+    return (counted.first_index[first + count] - counted.first_index[first]) / 3;
+}
+
 void Scene::draw_opaque(const gl::Program& program) const {
     if (!has_opaque()) return;
     bind(program, m_opaque.indices);

@@ -19,6 +19,8 @@ class Scene {
 
     bool parallel() const { return m_parallel; }
     std::size_t transparent_count() const { return m_transparent_count; }
+    /// Triangles of `count` transparent primitives from the `first` in this order.
+    std::size_t triangle_count(Order order, std::size_t first, std::size_t count) const;
     bool has_opaque() const { return m_opaque_index_count > 0; }
 
     /// A program that draws this scene: its vertex stage, `real_work(vec2 uv, vec4 tint)`, then `method_source` with

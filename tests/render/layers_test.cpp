@@ -50,6 +50,11 @@ const std::vector<MethodRow>& rows() {
         {{{"id", "f2bx"}}, Order::black, true},
         // At threshold 0 nothing is marked.
         {{{"id", "depth_marks"}, {"threshold", 0}, {"interval", 3}}, Order::by_depth, true},
+        {{{"id", "opaque_depth"}, {"batch", 3}}, Order::by_depth, true},
+        {{{"id", "opaque_depth"}, {"variant", "target_alpha"}, {"batch", 3}, {"label", "target_alpha"}},
+         Order::by_depth,
+         true},
+        {{{"id", "opaque_depth"}, {"variant", "two_pass"}, {"label", "two_pass"}}, Order::by_depth, true},
         {{{"id", "unsorted"}}, Order::by_submission, true},
         {{{"id", "alpha_test"}}, Order::alpha_test, true},
         {{{"id", "meshkin"}}, Order::meshkin_simple, false, meshkin_tolerance},

@@ -1,0 +1,31 @@
+#pragma once
+#include "renderer/frame/target.h"
+
+namespace sheer {
+
+/// A depth and stencil buffer for methods that need more than the target's depth, with the colour of an accumulation.
+class OwnDepth {
+  public:
+    /// `color` is a texture of the target's size; `format` a depth format, with or without stencil.
+    OwnDepth(const gl::Functions& gl, const Target& target, GLuint color, GLenum format);
+
+    /// Depth to the given value, stencil to 0; leaves the framebuffer without colour bound.
+    void clear(float depth) const;
+    /// Clears, then copies what the opaque pass left in the target's depth; exact for 32-bit depth.
+    void copy_opaque() const;
+    /// begin_pass on the colour and this depth, blending front to back: colour DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA.
+    void begin_blending() const;
+    /// begin_pass on this depth alone, so that the colour may be read.
+    void begin_depth_only() const;
+    std::int64_t memory_bytes() const;
+
+  private:
+    const gl::Functions& m_gl;
+    const Target& m_target;
+    GLenum m_format;
+    gl::Texture m_depth;
+    gl::Framebuffer m_framebuffer, m_depth_only;
+    FullscreenPass m_copy;
+};
+
+}  // namespace sheer

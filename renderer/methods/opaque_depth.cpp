@@ -1,0 +1,226 @@
+// Opaque fragments that close their pixel: "D3D: Drawing Transparency Front to Back", Correcting The Future
+// (exploreopera blog, 2008). F2B's equations; fully transparent fragments are dropped, and a pixel that an opaque
+// source fragment has covered is marked, so that nothing is blended there again. Opacity that only accumulates does not
+// mark. `variant` says how it is marked:
+//   shader_depth  The fragment writes depth, 0 if translucent; opaque ones a value that shrinks by one step with every
+//                 triangle, so that under GREATER_EQUAL a later opaque fragment fails like a translucent one. When a
+//                 batch has used up the steps, the marks are merged into the stencil and the depth is cleared.
+//   target_alpha  As shader_depth, but between batches every pixel whose transmittance is used up gets the greatest
+//                 depth, read from the target itself: no stencil, and accumulated opacity marks as well.
+//   two_pass      Every primitive twice: only its opaque fragments, which set the stencil; then its translucent ones.
+// OpenGL has no 16-bit depth with a stencil: with `depth_bits` 16 shader_depth uses 65,535 steps of a 24-bit buffer.
+// Good at: sprites and foliage with hard cores; the picture is F2B's. Bad at: the shader still runs for all but
+// two_pass, since it writes depth; two_pass draws every primitive by itself, twice. Parameters: `variant`; `depth_bits`
+// 16 to 24, 24: 2^bits - 1 steps; `batch` primitives between merges, 0 (default) for as many as there are steps.
+// two_pass takes no notice of the last two.
+#include "renderer/frame/accumulation.h"
+#include "renderer/frame/own_depth.h"
+#include "renderer/methods/method.h"
+
+namespace sheer {
+
+namespace {
+
+enum class Variant { shader_depth, target_alpha, two_pass };
+
+Variant variant_of(const MethodSetup& setup) {
+    const auto& name = setup.parameters.at("variant");
+    return name == "shader_depth"   ? Variant::shader_depth
+           : name == "target_alpha" ? Variant::target_alpha
+                                    : Variant::two_pass;
+}
+
+GLenum depth_format(Variant variant, int depth_bits) {
+    switch (variant) {
+        case Variant::shader_depth:
+            return GL_DEPTH24_STENCIL8;
+        case Variant::target_alpha:
+            return depth_bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT24;
+        case Variant::two_pass:
+            return GL_DEPTH32F_STENCIL8;
+    }
+    throw std::logic_error("unknown variant");
+}
+
+/// Less than half of what the format can tell apart near 1; float formats could tell less, which is not worth a layer.
+float half_step(PixelFormat format) {
+    return format == PixelFormat::rgba8 ? 0.5f / 255 : 1e-6f;
+}
+
+/// First primitive of each batch, and one past the last: at most `batch` (if not 0) primitives and `steps` triangles in
+/// each, but one primitive at least.
+std::vector<std::size_t> make_batches(const Scene& scene, std::size_t batch, std::size_t steps) {
+    std::vector<std::size_t> bounds = {0};
+    std::size_t triangles = 0;
+    for (std::size_t i = 0; i < scene.transparent_count(); ++i) {
+        const std::size_t more = scene.triangle_count(Order::near_to_far, i, 1);
+        const bool full = (batch != 0 && i - bounds.back() == batch) || triangles + more > steps;
+        if (full && i > bounds.back()) {
+            bounds.push_back(i);
+            triangles = 0;
+        }
+        triangles += more;
+    }
+    bounds.push_back(scene.transparent_count());
+    return bounds;
+}
+
+class OpaqueDepth : public Method {
+  public:
+    explicit OpaqueDepth(const MethodSetup& setup)
+        : m_gl(setup.gl),
+          m_scene(setup.scene),
+          m_target(setup.target),
+          m_variant(variant_of(setup)),
+          m_greatest_mark((1 << setup.parameters.at("depth_bits").get<int>()) - 1),
+          m_batches(make_batches(setup.scene, setup.parameters.at("batch").get<std::size_t>(),
+                                 static_cast<std::size_t>(first_mark()))),
+          m_opaque(setup.gl, setup.scene, setup.target),
+          m_accumulation(setup.gl, setup.target, setup.target.format()),
+          m_depth(setup.gl, setup.target, m_accumulation.readable_alpha().id(),
+                  depth_format(m_variant, setup.parameters.at("depth_bits").get<int>())),
+          m_merge(setup.gl, "opaque depth: merge", gl::shader_file("methods/opaque_depth_merge.glsl")),
+          m_saturated(setup.gl, "opaque depth: saturated", gl::shader_file("common/saturated.glsl")) {
+        m_saturated.program().set("u_threshold", half_step(setup.target.format()));
+        if (m_variant == Variant::two_pass) {
+            m_program = make_program(setup, "#define OPAQUE_ONLY\n");
+            m_translucent = make_program(setup, "#define TRANSLUCENT_ONLY\nlayout(early_fragment_tests) in;\n");
+        } else {
+            m_program = make_program(setup, "#define SHADER_DEPTH\n");
+            m_program.set("u_first_mark", first_mark());
+            m_program.set("u_greatest_mark", m_greatest_mark);
+        }
+    }
+
+    void render(gl::FrameTimer& timer) override {
+        m_opaque.draw(timer);
+        {
+            const auto pass = timer.pass("clear", gl::Phase::initialization);
+            m_accumulation.clear(1);
+            if (m_variant == Variant::two_pass) {
+                m_depth.copy_opaque();
+            } else {
+                m_depth.clear(0);
+            }
+        }
+        {
+            const auto pass = timer.pass("transparent", gl::Phase::transparent);
+            if (m_variant == Variant::two_pass) {
+                draw_twice();
+            } else {
+                draw_batches();
+            }
+        }
+        const auto pass = timer.pass("composite", gl::Phase::finalization);
+        m_accumulation.composite();
+    }
+
+    std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes() + m_depth.memory_bytes(); }
+
+  private:
+    static gl::Program make_program(const MethodSetup& setup, const std::string& prolog) {
+        gl::Program program =
+            setup.scene.make_program("opaque depth", gl::shader_file("methods/opaque_depth.glsl"), prolog);
+        program.set("u_half_step", half_step(setup.target.format()));
+        return program;
+    }
+
+    /// The greatest mark of target_alpha belongs to what earlier batches closed.
+    int first_mark() const { return m_variant == Variant::target_alpha ? m_greatest_mark - 1 : m_greatest_mark; }
+
+    void draw_batches() const {
+        for (std::size_t i = 0; i + 1 < m_batches.size(); ++i) {
+            if (i > 0) m_variant == Variant::shader_depth ? merge_into_stencil() : mark_saturated();
+            m_depth.begin_blending();
+            m_gl.Enable(GL_DEPTH_TEST);
+            m_gl.DepthFunc(GL_GEQUAL);
+            test_stencil(GL_KEEP, GL_KEEP);
+            m_gl.BindTextureUnit(first_method_texture_unit + 1, m_target.depth().id());
+            m_scene.draw_transparent(m_program, Order::near_to_far, m_batches[i], m_batches[i + 1] - m_batches[i]);
+        }
+    }
+
+    /// Where the depth is not 0 the test fails and turns the 0 of the stencil around.
+    void merge_into_stencil() const {
+        m_depth.begin_depth_only();
+        m_gl.Enable(GL_DEPTH_TEST);
+        m_gl.DepthFunc(GL_EQUAL);
+        m_gl.DepthMask(GL_FALSE);
+        test_stencil(GL_INVERT, GL_KEEP);
+        m_merge.draw();
+        m_gl.DepthMask(GL_TRUE);
+        const float no_mark = 0;
+        m_gl.ClearBufferfv(GL_DEPTH, 0, &no_mark);
+    }
+
+    void mark_saturated() const {
+        m_depth.clear(0);
+        m_gl.Enable(GL_DEPTH_TEST);
+        m_gl.DepthFunc(GL_ALWAYS);
+        m_gl.DepthRange(1, 1);
+        m_gl.BindTextureUnit(first_method_texture_unit, m_accumulation.readable_alpha().id());
+        m_saturated.draw();
+        m_gl.DepthRange(0, 1);
+    }
+
+    void draw_twice() const {
+        m_depth.begin_blending();
+        set_transparent_depth_state(m_gl);
+        for (std::size_t i = 0; i < m_scene.transparent_count(); ++i) {
+            test_stencil(GL_KEEP, GL_INVERT);
+            m_scene.draw_transparent(m_program, Order::near_to_far, i, 1);
+            test_stencil(GL_KEEP, GL_KEEP);
+            m_scene.draw_transparent(m_translucent, Order::near_to_far, i, 1);
+        }
+    }
+
+    /// Only pixels that are not marked; without a stencil buffer all of them.
+    void test_stencil(GLenum depth_fails, GLenum passes) const {
+        m_gl.Enable(GL_STENCIL_TEST);
+        m_gl.StencilFunc(GL_EQUAL, 0, 0xff);
+        m_gl.StencilOp(GL_KEEP, depth_fails, passes);
+    }
+
+    const gl::Functions& m_gl;
+    const Scene& m_scene;
+    const Target& m_target;
+    Variant m_variant;
+    int m_greatest_mark;
+    std::vector<std::size_t> m_batches;
+    OpaquePass m_opaque;
+    Accumulation m_accumulation;
+    OwnDepth m_depth;
+    FullscreenPass m_merge, m_saturated;
+    gl::Program m_program, m_translucent;
+};
+
+}  // namespace
+
+MethodInfo method_opaque_depth() {
+    return {
+        .id = "opaque_depth",
+        .name = "Opaque depth",
+        .kind = "sorted blending with early discard",
+        .summary = "F2B in which a pixel is closed by the first fully opaque fragment; transparent ones are dropped.",
+        .paper = "D3D: Drawing Transparency Front to Back, Correcting The Future, 2008",
+        .good_at = "Textures with hard cores: behind an opaque texel nothing is blended or written; F2B's picture.",
+        .bad_at =
+            "Opacity that builds up from translucent layers closes nothing (but in target_alpha); shading is not "
+            "saved where the shader writes depth.",
+        .memory = "one pixel of the image format and 2 to 8 bytes of depth and stencil",
+        .parameters = {Param::choice(
+                           "variant",
+                           "how a pixel is marked: by the depth that the shader writes, merged into the "
+                           "stencil; also by the target's alpha between batches; or by two passes a primitive",
+                           "shader_depth", {"shader_depth", "target_alpha", "two_pass"}),
+                       Param::integer("depth_bits", "2^bits - 1 triangles can be told apart before a merge", "bits", 24,
+                                      16, 24),
+                       Param::integer("batch", "primitives between merges; 0 for as many as the depth has steps for",
+                                      "", 0, 0, 1000000)},
+        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {
+            return std::make_unique<OpaqueDepth>(setup);
+        },
+    };
+}
+
+}  // namespace sheer

@@ -1,0 +1,32 @@
+// Set before: one of SHADER_DEPTH, OPAQUE_ONLY and TRANSLUCENT_ONLY.
+// A fragment counts as transparent or opaque where its alpha is within u_half_step of 0 or 1, which is less than the
+// target can tell apart.
+uniform float u_half_step;
+
+layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA
+
+#if defined(SHADER_DEPTH)
+// The depth buffer holds marks, so what the opaque pass hides is told from its depth as a texture.
+layout(binding = 9) uniform sampler2D u_opaque_depth;
+
+// Marks count down from u_first_mark, one for each triangle, and stay above the 0 of translucent fragments.
+uniform int u_first_mark, u_greatest_mark;
+#endif
+
+void main() {
+    begin_fragment();
+#if defined(SHADER_DEPTH)
+    if (gl_FragCoord.z > texelFetch(u_opaque_depth, ivec2(gl_FragCoord.xy), 0).r) discard;
+#endif
+    vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
+    bool is_opaque = work.a > 1.0 - u_half_step;
+    if (work.a < u_half_step) discard;
+#if defined(SHADER_DEPTH)
+    gl_FragDepth = is_opaque ? float(max(u_first_mark - gl_PrimitiveID, 1)) / float(u_greatest_mark) : 0.0;
+#elif defined(OPAQUE_ONLY)
+    if (!is_opaque) discard;
+#else
+    if (is_opaque) discard;
+#endif
+    o_color = vec4(work.rgb * work.a, 1.0 - work.a);
+}
