@@ -69,9 +69,9 @@ OpaquePass::OpaquePass(const gl::Functions& gl, const Scene& scene, const Target
       m_target(target),
       m_program(scene.make_program("opaque", gl::shader_file("common/opaque.glsl"))) {}
 
-void OpaquePass::draw(gl::FrameTimer& timer) const {
+void OpaquePass::draw_into(const gl::Framebuffer& framebuffer, gl::FrameTimer& timer) const {
     const auto pass = timer.pass("opaque", gl::Phase::opaque);
-    begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
+    begin_pass(m_gl, framebuffer, m_target.width_px(), m_target.height_px());
     const glm::vec4 background(m_target.background(), 1);
     const float far_depth = 1;
     m_gl.ClearBufferfv(GL_COLOR, 0, &background[0]);

@@ -50,7 +50,9 @@ void set_transparent_depth_state(const gl::Functions& gl);
 class OpaquePass {
   public:
     OpaquePass(const gl::Functions& gl, const Scene& scene, const Target& target);
-    void draw(gl::FrameTimer& timer) const;
+    void draw(gl::FrameTimer& timer) const { draw_into(m_target.framebuffer(), timer); }
+    /// Into another framebuffer of the target's size, such as one with several samples per pixel.
+    void draw_into(const gl::Framebuffer& framebuffer, gl::FrameTimer& timer) const;
 
   private:
     const gl::Functions& m_gl;

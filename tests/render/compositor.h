@@ -24,7 +24,7 @@ class Compositor {
     };
 
     /// `black` is what is left of everything where no transmittance is; `alpha_test` is at the reference 0.5.
-    enum class Order { by_depth, by_submission, black, alpha_test, meshkin_simple, meshkin_full };
+    enum class Order { by_depth, by_submission, black, alpha_test, meshkin_simple, meshkin_full, ssam };
 
     Compositor(const nlohmann::json& scene, int size_px, Color background)
         : m_layers(scene.at("layers")), m_size_px(size_px), m_background(background) {}
@@ -61,6 +61,8 @@ class Compositor {
                 return meshkin(seen, false);
             case Order::meshkin_full:
                 return meshkin(seen, true);
+            case Order::ssam:
+                return ssam(seen);
         }
         return {};
     }
@@ -104,6 +106,17 @@ class Compositor {
             color[i] = std::clamp(color[i], 0.0, 1.0);
         }
         return color;
+    }
+
+    /// Hathaway's Listing 3.2 with the defaults: 85 % additive, squared, colour from 64/255 up, else black.
+    static Color ssam(const Stack& stack) {
+        double greatest = 0, sum = 0;
+        for (const Fragment& fragment : stack.fragments) {
+            greatest = std::max(greatest, fragment.alpha);
+            sum += fragment.alpha;
+        }
+        const double mask = 0.15 * greatest + 0.85 * std::min(sum, 1.0);
+        return mix(stack.below, nearest(stack, 64.0 / 255, {0, 0, 0}), mask * mask);
     }
 
     static Color mix(const Color& a, const Color& b, double weight_of_b) {

@@ -33,6 +33,12 @@ double meshkin_full_tolerance(PixelFormat format, double layers) {
            (format == PixelFormat::rgba8 ? 0.5 * layers / 255 : 0);
 }
 
+/// The sum of n alphas is off by n half roundings, its square by twice that; two pictures and the result are rounded.
+double ssam_tolerance(PixelFormat format, double layers) {
+    if (format == PixelFormat::rgba32f) return 1e-5 * layers;
+    return (layers + 1.5) * (format == PixelFormat::rgba8 ? 1.0 / 255 : 0x1p-10);
+}
+
 const std::vector<MethodRow>& rows() {
     using Order = Compositor::Order;
     static const std::vector<MethodRow> all = {
@@ -62,6 +68,8 @@ const std::vector<MethodRow>& rows() {
          Order::meshkin_full,
          false,
          meshkin_full_tolerance},
+        {{{"id", "ssam"}}, Order::ssam, false, ssam_tolerance},
+        {{{"id", "ssam"}, {"opaque_msaa", 2}, {"label", "ssam msaa"}}, Order::ssam, false, ssam_tolerance},
         {{{"id", "exact"}, {"form", "lists"}, {"label", "lists"}}, Order::by_depth, false},
         {{{"id", "exact"}, {"form", "sorted"}, {"label", "sorted"}}, Order::by_depth, false},
         {{{"id", "depth_peeling"}}, Order::by_depth, false},

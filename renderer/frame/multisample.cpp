@@ -1,0 +1,63 @@
+#include "renderer/frame/multisample.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace sheer {
+
+namespace {
+
+std::vector<GLint> sample_counts(const gl::Functions& gl, GLenum format) {
+    GLint count = 0;
+    gl.GetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_NUM_SAMPLE_COUNTS, 1, &count);
+    std::vector<GLint> counts(static_cast<std::size_t>(count));
+    gl.GetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_SAMPLES, count, counts.data());
+    return counts;
+}
+
+int fewest_samples(const gl::Functions& gl, GLenum color_format, int wanted) {
+    const std::vector<GLint> of_color = sample_counts(gl, color_format),
+                             of_depth = sample_counts(gl, GL_DEPTH_COMPONENT32F);
+    int fewest = 0;
+    for (const GLint samples : of_color)
+        if (samples >= wanted && std::ranges::count(of_depth, samples) > 0 && (fewest == 0 || samples < fewest))
+            fewest = samples;
+    if (fewest == 0)
+        throw Unsupported("this device has no " + std::to_string(wanted) + " or more samples per pixel in this format");
+    return fewest;
+}
+
+gl::Texture make_texture(const gl::Functions& gl, std::string_view label, GLenum format, const Target& target,
+                         int samples) {
+    GLuint id = 0;
+    gl.CreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &id);
+    gl::Texture texture(gl, id, label);
+    gl.TextureStorage2DMultisample(id, samples, format, target.width_px(), target.height_px(), GL_TRUE);
+    return texture;
+}
+
+}  // namespace
+
+Multisample::Multisample(const gl::Functions& gl, const Target& target, int samples)
+    : m_gl(gl),
+      m_target(target),
+      m_samples(fewest_samples(gl, gl_format(target.format()), samples)),
+      m_color(make_texture(gl, "multisample color", gl_format(target.format()), target, m_samples)),
+      m_depth(make_texture(gl, "multisample depth", GL_DEPTH_COMPONENT32F, target, m_samples)),
+      m_framebuffer(gl::make_framebuffer(gl, "multisample", std::array{m_color.id()}, m_depth.id())) {}
+
+void Multisample::resolve_color() const {
+    const int width = m_target.width_px(), height = m_target.height_px();
+    begin_pass(m_gl, m_target.framebuffer(), width, height);
+    m_gl.BlitNamedFramebuffer(m_framebuffer.id(), m_target.framebuffer().id(), 0, 0, width, height, 0, 0, width, height,
+                              GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+std::int64_t Multisample::memory_bytes() const {
+    constexpr int depth_bytes = 4;
+    const std::int64_t pixels = std::int64_t{m_target.width_px()} * m_target.height_px();
+    return pixels * m_samples * (bytes_per_pixel(m_target.format()) + depth_bytes);
+}
+
+}  // namespace sheer

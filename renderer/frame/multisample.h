@@ -1,0 +1,28 @@
+#pragma once
+#include "renderer/frame/target.h"
+
+namespace sheer {
+
+/// A picture of the target's size and format with several samples per pixel, and its own depth, to be resolved into the
+/// target.
+class Multisample {
+  public:
+    /// Takes the fewest samples that the device has from `samples` up. Throws Unsupported if it has fewer only.
+    Multisample(const gl::Functions& gl, const Target& target, int samples);
+
+    const gl::Framebuffer& framebuffer() const { return m_framebuffer; }
+    const gl::Texture& depth() const { return m_depth; }
+    int samples() const { return m_samples; }
+    /// The mean of each pixel's samples becomes the target's colour; its depth stays.
+    void resolve_color() const;
+    std::int64_t memory_bytes() const;
+
+  private:
+    const gl::Functions& m_gl;
+    const Target& m_target;
+    int m_samples;
+    gl::Texture m_color, m_depth;
+    gl::Framebuffer m_framebuffer;
+};
+
+}  // namespace sheer
