@@ -77,8 +77,8 @@ TEST(OpaqueDepth, OnlyTargetAlphaSeesAccumulatedOpacity) {
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("two_pass", 1)), 10 + composite + depth_copy);
 }
 
-/// 16 bits tell 65,535 triangles apart, so 40,000 rectangles of two take a second batch; 24 bits take one. No fragment is
-/// opaque, so that the one merge counts once per pixel.
+/// 16 bits tell 65,535 triangles apart, so 40,000 rectangles of two take a second batch; 24 bits take one. No fragment
+/// is opaque, so that the one merge counts once per pixel.
 TEST(OpaqueDepth, DepthBitsBoundTheBatch) {
     const auto context = make_context("egl");
     const nlohmann::json quads = {{"type", "quads"}, {"count", 40000}, {"shading", "constant"}};
