@@ -61,6 +61,11 @@ const std::vector<MethodRow>& rows() {
          Order::by_depth,
          true},
         {{{"id", "opaque_depth"}, {"variant", "two_pass"}, {"label", "two_pass"}}, Order::by_depth, true},
+        // No pixel reaches the cap, so nothing is cut off or guessed.
+        {{{"id", "stencil_cap"}, {"layers", 17}, {"min_alpha", 0}, {"frames", 2}}, Order::by_depth, true},
+        {{{"id", "stencil_cap"}, {"layers", 17}, {"min_alpha", 0}, {"frames", 2}, {"zcull", true}, {"label", "zcull"}},
+         Order::by_depth,
+         true},
         {{{"id", "unsorted"}}, Order::by_submission, true},
         {{{"id", "alpha_test"}}, Order::alpha_test, true},
         {{{"id", "meshkin"}}, Order::meshkin_simple, false, meshkin_tolerance},

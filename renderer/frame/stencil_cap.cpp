@@ -1,0 +1,183 @@
+#include "renderer/frame/stencil_cap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace sheer {
+
+namespace {
+
+constexpr int coarse_factor = 4;
+
+gl::Program make_program(const MethodSetup& setup, const std::string& label, std::string_view path) {
+    const auto min_alpha = setup.parameters.at("min_alpha").get<float>();
+    const std::string prolog =
+        min_alpha > 0 ? "#define ALPHA_TEST 1\n" : "#define ALPHA_TEST 0\nlayout(early_fragment_tests) in;\n";
+    gl::Program program = setup.scene.make_program(label, gl::shader_file(path), prolog);
+    program.set("u_min_alpha", min_alpha);
+    return program;
+}
+
+double greatest_change(const Image& before, const Image& after) {
+    double greatest = 0;
+    for (std::size_t i = 0; i < after.rgba.size(); ++i)
+        if (i % 4 != 3) greatest = std::max(greatest, std::abs(double{after.rgba[i]} - before.rgba[i]));
+    return greatest;
+}
+
+}  // namespace
+
+std::vector<Param> stencil_cap_parameters() {
+    return {
+        Param::integer("layers", "fragments that are drawn in a pixel", "", 8, 1, 255),
+        Param::number("min_alpha", "fragments of less alpha are dropped and use up no layer", "", 0.02, 0, 1),
+        Param::integer("frames", "the picture is that of this frame, the first having none before it", "frames", 30, 1,
+                       1000),
+        Param::boolean("zcull", "a pass of a quarter of the size primes the depth buffer with where each pixel is full",
+                       false),
+    };
+}
+
+StencilCap::StencilCap(const MethodSetup& setup)
+    : m_gl(setup.gl),
+      m_scene(setup.scene),
+      m_target(setup.target),
+      m_layers(setup.parameters.at("layers").get<int>()),
+      m_frames(setup.parameters.at("frames").get<int>()),
+      m_zcull(setup.parameters.at("zcull").get<bool>()),
+      m_coarse_width_px((setup.target.width_px() + coarse_factor - 1) / coarse_factor),
+      m_coarse_height_px((setup.target.height_px() + coarse_factor - 1) / coarse_factor),
+      m_opaque(setup.gl, setup.scene, setup.target),
+      m_accumulation(setup.gl, setup.target, setup.target.format()),
+      m_depth(setup.gl, setup.target, m_accumulation.readable_alpha().id(), GL_DEPTH32F_STENCIL8),
+      m_fill(setup.gl, "stencil cap: fill", gl::shader_file("methods/stencil_cap_fill.glsl")),
+      m_program(make_program(setup, "stencil cap", "methods/stencil_cap.glsl")),
+      m_previous(history_texture()),
+      m_current(history_texture()) {
+    if (!m_zcull) return;
+    m_coarse_program = make_program(setup, "stencil cap: coarse depth", "methods/stencil_cap_depth.glsl");
+    m_prime = gl::Program(m_gl, "stencil cap: prime", gl::shader_file("methods/stencil_cap_prime.vert.glsl"),
+                          glsl_version + std::string(gl::shader_file("methods/stencil_cap_prime.glsl")));
+    m_coarse_depth = gl::make_texture_2d(m_gl, "stencil cap: coarse depth", GL_DEPTH32F_STENCIL8, m_coarse_width_px,
+                                         m_coarse_height_px);
+    m_coarse = gl::make_framebuffer(m_gl, "stencil cap: coarse", std::span<const GLuint>(), m_coarse_depth.id());
+    m_no_vertices = gl::make_vertex_array(m_gl, "stencil cap: no vertices");
+}
+
+gl::Texture StencilCap::history_texture() const {
+    const int width = m_target.width_px(), height = m_target.height_px();
+    gl::Texture texture = gl::make_texture_2d(m_gl, "stencil cap: frame", gl_format(m_target.format()), width, height,
+                                              std::max(width, height) > 1 ? 2 : 1);
+    m_gl.TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    return texture;
+}
+
+void StencilCap::render(gl::FrameTimer& timer) {
+    do {
+        if (m_frame < m_frames) advance();
+        draw_frame(timer);
+    } while (m_frame < m_frames);
+}
+
+std::vector<double> StencilCap::change_per_frame(gl::FrameTimer& timer) {
+    std::vector<double> changes;
+    Image before;
+    for (m_frame = 0; m_frame < m_frames;) {
+        advance();
+        draw_frame(timer);
+        Image after = m_target.read();
+        if (m_frame > 1) changes.push_back(greatest_change(before, after));
+        before = std::move(after);
+    }
+    return changes;
+}
+
+void StencilCap::advance() {
+    std::swap(m_previous, m_current);
+    ++m_frame;
+}
+
+void StencilCap::draw_frame(gl::FrameTimer& timer) const {
+    m_opaque.draw(timer);
+    {
+        const auto pass = timer.pass("clear", gl::Phase::initialization);
+        m_accumulation.clear(1);
+        m_depth.copy_opaque();
+    }
+    if (m_zcull) {
+        const auto pass = timer.pass("zcull", gl::Phase::initialization);
+        prime_depth();
+    }
+    {
+        const auto pass = timer.pass("transparent", gl::Phase::transparent);
+        draw_capped();
+    }
+    const auto pass = timer.pass("fill and composite", gl::Phase::finalization);
+    if (m_frame > 1) fill();
+    m_accumulation.composite();
+    keep_picture();
+}
+
+/// The stencil is equal to layers - 1 for one fragment only, whose depth is kept. Slanted primitives are moved back by
+/// their slope over a coarse pixel, so that no finer pixel of theirs lies behind it.
+void StencilCap::prime_depth() const {
+    begin_pass(m_gl, m_coarse, m_coarse_width_px, m_coarse_height_px);
+    const float far_depth = 1;
+    const GLint no_stencil = 0;
+    m_gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    m_gl.ClearBufferiv(GL_STENCIL, 0, &no_stencil);
+    m_gl.Enable(GL_DEPTH_TEST);
+    m_gl.DepthFunc(GL_ALWAYS);
+    m_gl.Enable(GL_STENCIL_TEST);
+    m_gl.StencilFunc(GL_EQUAL, m_layers - 1, 0xff);
+    m_gl.StencilOp(GL_INCR, GL_INCR, GL_INCR);
+    m_gl.Enable(GL_POLYGON_OFFSET_FILL);
+    m_gl.PolygonOffset(1, 0);
+    m_scene.draw_transparent(m_coarse_program, Order::near_to_far);
+    m_gl.Disable(GL_POLYGON_OFFSET_FILL);
+
+    m_depth.begin_depth_only();
+    m_gl.Enable(GL_DEPTH_TEST);
+    m_gl.DepthFunc(GL_LESS);
+    m_gl.BindTextureUnit(first_method_texture_unit, m_coarse_depth.id());
+    m_prime.use();
+    m_gl.BindVertexArray(m_no_vertices.id());
+    m_gl.DrawArrays(GL_TRIANGLES, 0, 6 * m_coarse_width_px * m_coarse_height_px);
+}
+
+void StencilCap::draw_capped() const {
+    m_depth.begin_blending();
+    set_transparent_depth_state(m_gl);
+    m_gl.Enable(GL_STENCIL_TEST);
+    m_gl.StencilFunc(GL_GREATER, m_layers, 0xff);
+    m_gl.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+    m_scene.draw_transparent(m_program, Order::near_to_far);
+}
+
+/// Only pixels that are full: behind the others the opaque picture is what there is to see.
+void StencilCap::fill() const {
+    m_depth.begin_blending();
+    m_gl.Enable(GL_STENCIL_TEST);
+    m_gl.StencilFunc(GL_EQUAL, m_layers, 0xff);
+    m_gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    m_gl.BindTextureUnit(first_method_texture_unit, m_previous.id());
+    m_fill.draw();
+}
+
+void StencilCap::keep_picture() const {
+    m_gl.CopyImageSubData(m_target.color().id(), GL_TEXTURE_2D, 0, 0, 0, 0, m_current.id(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                          m_target.width_px(), m_target.height_px(), 1);
+    m_gl.GenerateTextureMipmap(m_current.id());
+}
+
+std::int64_t StencilCap::memory_bytes() const {
+    const std::int64_t pixels = std::int64_t{m_target.width_px()} * m_target.height_px();
+    const std::int64_t half_pixels =
+        std::int64_t{std::max(m_target.width_px() / 2, 1)} * std::max(m_target.height_px() / 2, 1);
+    const std::int64_t coarse_pixels = m_zcull ? std::int64_t{m_coarse_width_px} * m_coarse_height_px : 0;
+    return m_accumulation.memory_bytes() + m_depth.memory_bytes() +
+           2 * (pixels + half_pixels) * bytes_per_pixel(m_target.format()) + coarse_pixels * 8;
+}
+
+}  // namespace sheer

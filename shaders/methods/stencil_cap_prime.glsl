@@ -1,0 +1,2 @@
+// No colour output; depth test LESS with depth writes.
+void main() {}
