@@ -50,7 +50,8 @@ void begin_pass(const gl::Functions& gl, const gl::Framebuffer& framebuffer, int
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     gl.Viewport(0, 0, width_px, height_px);
-    for (const GLenum capability : {GL_BLEND, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DITHER})
+    for (const GLenum capability : {GL_BLEND, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DITHER,
+                                    GL_SAMPLE_ALPHA_TO_COVERAGE})
         gl.Disable(capability);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.DepthMask(GL_TRUE);

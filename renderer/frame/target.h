@@ -39,8 +39,8 @@ GLenum gl_format(PixelFormat format);
 int bytes_per_pixel(PixelFormat format);
 
 /// Binds `framebuffer` for drawing over the whole target, and puts the state that passes vary back to: no blending,
-/// no depth or stencil test, depth and colour writes on, no culling, no scissor, origin top left, depth 0..1.
-/// Every pass begins with it and then sets what it needs.
+/// no depth or stencil test, depth and colour writes on, no culling, no scissor, no alpha to coverage, origin top left,
+/// depth 0..1. Every pass begins with it and then sets what it needs.
 void begin_pass(const gl::Functions& gl, const gl::Framebuffer& framebuffer, int width_px, int height_px);
 
 /// Transparent primitives: hidden behind opaque ones, not by each other. (LEQUAL, no depth writes.)

@@ -24,7 +24,16 @@ class Compositor {
     };
 
     /// `black` is what is left of everything where no transmittance is; `alpha_test` is at the reference 0.5.
-    enum class Order { by_depth, by_submission, black, alpha_test, meshkin_simple, meshkin_full, ssam };
+    enum class Order {
+        by_depth,
+        by_submission,
+        black,
+        alpha_test,
+        meshkin_simple,
+        meshkin_full,
+        ssam,
+        alpha_to_coverage
+    };
 
     Compositor(const nlohmann::json& scene, int size_px, Color background)
         : m_layers(scene.at("layers")), m_size_px(size_px), m_background(background) {}
@@ -63,6 +72,8 @@ class Compositor {
                 return meshkin(seen, true);
             case Order::ssam:
                 return ssam(seen);
+            case Order::alpha_to_coverage:
+                return alpha_to_coverage(seen, 4);
         }
         return {};
     }
@@ -117,6 +128,19 @@ class Compositor {
         }
         const double mask = 0.15 * greatest + 0.85 * std::min(sum, 1.0);
         return mix(stack.below, nearest(stack, 64.0 / 255, {0, 0, 0}), mask * mask);
+    }
+
+    /// Of n samples a fragment covers those i with alpha > i / n, which is llvmpipe's rule; each shows its nearest one.
+    static Color alpha_to_coverage(const Stack& stack, int samples) {
+        Color mean = {};
+        for (int sample = 0; sample < samples; ++sample) {
+            Stack covering{stack.below, {}};
+            for (const Fragment& fragment : stack.fragments)
+                if (fragment.alpha * samples > sample) covering.fragments.push_back(fragment);
+            const Color seen = nearest(covering, 0, stack.below);
+            for (std::size_t i = 0; i < 3; ++i) mean[i] += seen[i] / samples;
+        }
+        return mean;
     }
 
     static Color mix(const Color& a, const Color& b, double weight_of_b) {
