@@ -1,4 +1,5 @@
-// Form fields made from the descriptions of parameters: {name, kind, summary, unit, default, min, max, choices, fields}.
+// Form fields made from the descriptions of parameters: {name, kind, summary, unit, default, min, max, choices, fields,
+// optional}.
 import { el, select, set_children, unique_id } from "./dom.js";
 import { words } from "./format.js";
 import { pointer_of } from "./spec_model.js";
@@ -9,6 +10,9 @@ const LETTERS = {
   rect: ["x0", "y0", "x1", "y1"],
   color: ["red", "green", "blue"],
   background: ["red", "green", "blue"],
+  eye: ["x", "y", "z"],
+  target: ["x", "y", "z"],
+  up: ["x", "y", "z"],
 };
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -166,7 +170,36 @@ function numbers_field(param, path, model) {
 }
 
 function object_field(param, path, model) {
+  if (param.optional) return optional_object_field(param, path, model);
   return field_frame(param, path, fields_of(param.fields ?? [], path, model), { group: true });
+}
+
+/** An object that may be left out: a box that puts it into the spec, and its fields while it is there. */
+function optional_object_field(param, path, model) {
+  // The model drops an object that has lost its last field; here the box alone says whether it is there.
+  const kept = {
+    get: (at) => model.get(at),
+    set: (at, value) => {
+      model.set(at, value);
+      if ((model.get(path) ?? null) === null) model.set(path, {});
+    },
+  };
+  const id = unique_id("field");
+  const box = el("input", {
+    type: "checkbox",
+    id,
+    checked: (model.get(path) ?? null) !== null,
+    onchange: () => {
+      model.set(path, box.checked ? {} : undefined);
+      draw();
+    },
+  });
+  const fields = el("div");
+  const draw = () => set_children(fields, box.checked ? fields_of(param.fields ?? [], path, kept) : null);
+  draw();
+  const label = el("label", { for: id }, `Set the ${words(param.name).toLowerCase()}`);
+  const line = el("div", { class: "ticked" }, box, label);
+  return field_frame(param, path, el("div", {}, line, fields), { group: true });
 }
 
 /** A value for a new entry of a list: the default, or the middle of the range where it must be given. */

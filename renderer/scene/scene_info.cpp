@@ -24,7 +24,7 @@ std::vector<Param> SceneInfo::all_parameters() const {
         Param::choice("shading", "what the fragment shader does: textures read and positions bent", default_shading,
                       {"constant", "1-texture", "4-textures", "4-textures-math", "4x4-textures", "4x4-textures-math"}));
     all.push_back(Param::object("texture", "the four textures that the shading reads",
-                                {Param::choice("image", "what they show", "leaf", {"leaf", "smoke"}),
+                                {Param::choice("image", "what they show", default_texture, {"leaf", "smoke"}),
                                  Param::integer("size", "width and height", "px", 1024, 1, 4096)}));
     return all;
 }

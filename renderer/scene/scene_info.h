@@ -13,10 +13,13 @@ namespace sheer {
 
 struct Vertex {
     glm::vec3 position;       ///< before view_projection; with the identity: x right, y up, -1..1, depth 0 (near) to 1
-    glm::vec2 uv;             ///< 0..1, v down
-    glm::vec4 tint;           ///< straight colour and alpha, 0..1
+    glm::vec2 uv;             ///< 0..1, v down; untextured_uv: the tint alone, for opaque primitives
+    glm::vec4 tint;           ///< straight colour and alpha; colours may pass 1, methods clamp the shaded fragment
     std::uint32_t primitive;  ///< index into Geometry::primitives
 };
+
+/// At every vertex of an opaque primitive: its colour is the tint, whatever the shading. (shaders/common/opaque.glsl.)
+inline constexpr glm::vec2 untextured_uv{-1, -1};
 
 /// What a sorted method orders: a quad, a sprite, a slice, a triangle.
 struct Primitive {
@@ -48,6 +51,9 @@ struct SceneInfo {
     std::string source;             ///< paper or "Sheer"
     std::vector<Param> parameters;  ///< without those that every scene has, see all_parameters()
     std::string default_shading = "constant";
+    std::string default_texture = "leaf";
+    /// Adds errors that several fields make together; null where none can. `scene` is normalised and lies at `pointer`.
+    std::function<void(const nlohmann::json& scene, const std::string& pointer, std::vector<FieldError>& errors)> check;
     std::function<Geometry(const nlohmann::json& scene, const ImageSpec& image)> build;
 
     /// Its own and the ones common to all scenes: shading and texture.

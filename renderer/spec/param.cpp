@@ -228,6 +228,7 @@ json value_schema(const Param& param) {
         schema.update(range);
     }
     if (!param.default_value.is_null()) schema["default"] = param.default_value;
+    if (param.optional && schema.contains("type")) schema["type"] = {schema["type"], "null"};
     schema["description"] = param.unit.empty() ? param.summary : fmt::format("{} [{}]", param.summary, param.unit);
     return schema;
 }
@@ -342,6 +343,7 @@ json to_json(const std::vector<Param>& fields) {
         if (std::isfinite(param.min)) one["min"] = bound(param, param.min);
         if (std::isfinite(param.max)) one["max"] = bound(param, param.max);
         if (param.exclusive) one["exclusive"] = true;
+        if (param.optional) one["optional"] = true;
         if (!param.choices.empty()) one["choices"] = param.choices;
         if (!param.fields.empty()) one["fields"] = to_json(param.fields);
         if (param.max_length > 0) one["max_length"] = param.max_length;

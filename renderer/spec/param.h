@@ -51,7 +51,7 @@ nlohmann::json read_fields(const nlohmann::json& object, const std::string& poin
 
 /// The same description as a JSON schema (draft 7) object.
 nlohmann::json schema_of(const std::vector<Param>& fields);
-/// The same description as an array of {name, kind, summary, unit, default, min, max, choices, fields}.
+/// The same description as an array of {name, kind, summary, unit, default, min, max, choices, fields, optional}.
 nlohmann::json to_json(const std::vector<Param>& fields);
 
 /// `token` escaped for a JSON pointer (RFC 6901).

@@ -144,6 +144,7 @@ class SpecReader {
         scene.erase("type");
         spec.scene_type = info->id;
         spec.scene = read_fields(scene, "/scene", info->all_parameters(), m_errors);
+        if (info->check) info->check(spec.scene, "/scene", m_errors);
         spec.scene["type"] = info->id;
         spec.normalised["scene"] = spec.scene;
     }
