@@ -4,7 +4,8 @@
 namespace sheer {
 
 /// Seeded random numbers that are the same on every platform and standard library: SplitMix64 (Steele, Lea and Flood,
-/// "Fast splittable pseudorandom number generators", OOPSLA 2014).
+/// "Fast splittable pseudorandom number generators", OOPSLA 2014). Draw one number a declaration, or in braces:
+/// compilers differ in the order in which they work out the rest of an expression.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : m_state(seed) {}

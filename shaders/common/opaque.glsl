@@ -2,5 +2,8 @@ layout(location = 0) out vec4 o_color;  // no blending
 
 void main() {
     begin_fragment();
-    o_color = vec4(clamp(real_work(v_uv, v_tint).rgb, 0.0, 1.0), 1.0);
+    bool untextured = v_uv.x < 0.0;
+    vec4 work = v_tint;
+    if (!untextured) work = real_work(v_uv, v_tint);
+    o_color = vec4(clamp(work.rgb, 0.0, 1.0), 1.0);
 }
