@@ -166,6 +166,166 @@ TEST(TexturesByName, UnknownOnesThrow) {
     EXPECT_THROW(make_texture("teapot", 4, 0), std::invalid_argument);
 }
 
+Geometry build_scene(const json& scene, int width_px = 64, int height_px = 64) {
+    const Spec spec =
+        parse_spec({{"scene", scene}, {"methods", {"b2f"}}, {"image", {{"width", width_px}, {"height", height_px}}}});
+    return find_scene(spec.scene_type)->build(spec.scene, spec.image);
+}
+
+std::size_t transparent_count(const Geometry& geometry) {
+    return static_cast<std::size_t>(std::ranges::count(geometry.primitives, false, &Primitive::opaque));
+}
+
+struct Scene3dRow {
+    std::string name;
+    json scene, other_seed;
+    std::size_t transparent;
+};
+
+void PrintTo(const Scene3dRow& row, std::ostream* out) {
+    *out << row.scene;
+}
+
+class Scenes3d : public testing::TestWithParam<Scene3dRow> {};
+
+TEST_P(Scenes3d, HaveAsManyTransparentPrimitivesAsAskedAndOpaqueOnes) {
+    const Geometry geometry = build_scene(GetParam().scene);
+    EXPECT_EQ(transparent_count(geometry), GetParam().transparent);
+    EXPECT_LT(GetParam().transparent, geometry.primitives.size());
+    std::size_t indices = 0;
+    for (const Primitive& primitive : geometry.primitives) {
+        EXPECT_EQ(primitive.first_index, indices);
+        EXPECT_GT(primitive.index_count, 0u);
+        EXPECT_TRUE(primitive.opaque || primitive.index_count == 6u);
+        indices += primitive.index_count;
+    }
+    EXPECT_EQ(indices, geometry.indices.size());
+    for (const std::uint32_t index : geometry.indices) ASSERT_LT(index, geometry.vertices.size());
+    for (const Vertex& vertex : geometry.vertices)
+        EXPECT_EQ(vertex.uv == untextured_uv, geometry.primitives[vertex.primitive].opaque);
+}
+
+/// The default camera has all of it in the picture, between the near and the far plane, at any aspect.
+TEST_P(Scenes3d, AreFramed) {
+    for (const auto& [width_px, height_px] : {std::pair{64, 64}, {128, 32}, {32, 128}}) {
+        SCOPED_TRACE(width_px);
+        const Geometry geometry = build_scene(GetParam().scene, width_px, height_px);
+        float widest = 0;
+        for (const Vertex& vertex : geometry.vertices) {
+            const glm::vec4 clip = geometry.view_projection * glm::vec4(vertex.position, 1);
+            const glm::vec3 at = glm::vec3(clip) / clip.w;
+            ASSERT_LE(std::abs(at.x), 1);
+            ASSERT_LE(std::abs(at.y), 1);
+            ASSERT_GE(at.z, 0);
+            ASSERT_LE(at.z, 1);
+            widest = std::max({widest, std::abs(at.x), std::abs(at.y)});
+        }
+        EXPECT_GT(widest, 0.55f);
+    }
+}
+
+TEST_P(Scenes3d, DependOnTheSeedAlone) {
+    const Geometry first = build_scene(GetParam().scene), again = build_scene(GetParam().scene),
+                   other = build_scene(GetParam().other_seed);
+    ASSERT_EQ(first.vertices.size(), again.vertices.size());
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < first.vertices.size(); ++i) {
+        ASSERT_EQ(first.vertices[i].position, again.vertices[i].position);
+        ASSERT_EQ(first.vertices[i].tint, again.vertices[i].tint);
+        moved += i < other.vertices.size() && first.vertices[i].position != other.vertices[i].position;
+    }
+    EXPECT_GT(moved, 4 * GetParam().transparent / 2);
+}
+
+/// The depth that sorting goes by is that of the middle of the primitive, ahead of the eye: clip w, for a perspective.
+TEST_P(Scenes3d, AreSortedByTheDepthOfTheirMiddles) {
+    const Geometry geometry = build_scene(GetParam().scene);
+    for (const Primitive& primitive : geometry.primitives) {
+        if (primitive.opaque) continue;
+        // The first and the third corner of a quad are opposite.
+        const std::uint32_t* corners = &geometry.indices[primitive.first_index];
+        const glm::vec3 middle =
+            (geometry.vertices[corners[0]].position + geometry.vertices[corners[2]].position) / 2.0f;
+        EXPECT_NEAR(primitive.depth, (geometry.view_projection * glm::vec4(middle, 1)).w, 1e-5);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Scenes3d,
+    testing::Values(Scene3dRow{"fire",
+                               {{"type", "particles"}, {"count", 500}},
+                               {{"type", "particles"}, {"count", 500}, {"seed", 2}},
+                               500},
+                    Scene3dRow{"smoke",
+                               {{"type", "particles"}, {"count", 3000}, {"appearance", "smoke"}},
+                               {{"type", "particles"}, {"count", 3000}, {"appearance", "smoke"}, {"seed", 2}},
+                               3000},
+                    Scene3dRow{"one_particle",
+                               {{"type", "particles"}, {"count", 1}},
+                               {{"type", "particles"}, {"count", 1}, {"seed", 2}},
+                               1},
+                    Scene3dRow{"one_tree",
+                               {{"type", "foliage"}, {"trees", 1}, {"planes_per_tree", 40}},
+                               {{"type", "foliage"}, {"trees", 1}, {"planes_per_tree", 40}, {"seed", 2}},
+                               40},
+                    Scene3dRow{"a_wood",
+                               {{"type", "foliage"}, {"trees", 20}, {"planes_per_tree", 30}},
+                               {{"type", "foliage"}, {"trees", 20}, {"planes_per_tree", 30}, {"seed", 2}},
+                               600}),
+    [](const testing::TestParamInfo<Scene3dRow>& row) { return row.param.name; });
+
+/// Drawing sprites in depth order is exact only because each has one depth, to the last bit.
+TEST(Particles, FaceTheCamera) {
+    const Geometry geometry = build_scene(
+        {{"type", "particles"}, {"count", 200}, {"camera", {{"eye", {3, 5, 2}}, {"target", {0.3, 1, -0.2}}}}});
+    EXPECT_TRUE(geometry.parallel);
+    const auto clip_z = [&](std::uint32_t index) {
+        return (geometry.view_projection * glm::vec4(geometry.vertices[index].position, 1)).z;
+    };
+    for (const Primitive& primitive : geometry.primitives) {
+        if (primitive.opaque) continue;
+        for (std::uint32_t i = 1; i < 6; ++i)
+            EXPECT_EQ(clip_z(geometry.indices[primitive.first_index]),
+                      clip_z(geometry.indices[primitive.first_index + i]));
+    }
+}
+
+TEST(Particles, AreAMillionAtMost) {
+    const Geometry geometry = build_scene({{"type", "particles"}, {"count", 1000000}});
+    EXPECT_EQ(transparent_count(geometry), 1000000u);
+    EXPECT_THROW(build_scene({{"type", "particles"}, {"count", 1000001}}), SpecError);
+    EXPECT_THROW(build_scene({{"type", "particles"}, {"count", 0}}), SpecError);
+}
+
+TEST(Particles, HaveSmokeAsTheirTextureUnlessTold) {
+    const auto texture = [](const json& scene) {
+        return parse_spec({{"scene", scene}, {"methods", {"b2f"}}}).scene.at("texture").at("image");
+    };
+    EXPECT_EQ(texture({{"type", "particles"}}), "smoke");
+    EXPECT_EQ(texture({{"type", "particles"}, {"texture", {{"image", "leaf"}}}}), "leaf");
+    EXPECT_EQ(texture({{"type", "foliage"}}), "leaf");
+}
+
+/// Planes that are turned at random: their normals have no preferred axis.
+TEST(Foliage, PlanesAreTurnedEveryWay) {
+    const Geometry geometry = build_scene({{"type", "foliage"}, {"trees", 2}, {"planes_per_tree", 1000}});
+    EXPECT_FALSE(geometry.parallel);
+    glm::dvec3 squares(0);
+    for (const Primitive& primitive : geometry.primitives) {
+        if (primitive.opaque) continue;
+        const auto corner = [&](std::uint32_t i) {
+            return glm::dvec3(geometry.vertices[geometry.indices[primitive.first_index + i]].position);
+        };
+        const glm::dvec3 right = corner(1) - corner(0), down = corner(2) - corner(1);
+        EXPECT_NEAR(glm::dot(right, down), 0, 1e-5);
+        EXPECT_NEAR(glm::length(right), glm::length(down), 1e-5);
+        const glm::dvec3 normal = glm::normalize(glm::cross(right, down));
+        squares += normal * normal;
+    }
+    // Mean 1/3 each; the standard deviation of a mean of 2000 is 0.3 / sqrt(2000) = 0.007.
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(squares[axis] / 2000, 1.0 / 3, 0.035);
+}
+
 TEST(Scenes, DescribeThemselves) {
     for (const SceneInfo& scene : all_scenes()) {
         SCOPED_TRACE(scene.id);

@@ -85,3 +85,28 @@ page_test("the theme is kept", {}, async (page) => {
   await page.reload();
   assert.equal(await background(), dark);
 });
+
+page_test("a camera is in the spec while its box is ticked", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/`);
+  await page.locator(`${field("/scene/type")} select`).selectOption("foliage");
+  const box = page.getByLabel("Set the camera");
+  assert.equal(await box.isChecked(), false);
+  const camera = async () => {
+    await page.getByRole("tab", { name: "Spec" }).click();
+    const spec = JSON.parse(await page.getByLabel("Spec as JSON").inputValue());
+    await page.getByRole("tab", { name: "Form" }).click();
+    return spec.scene.camera;
+  };
+  assert.equal(await camera(), undefined);
+  await box.check();
+  assert.deepEqual(await camera(), {});
+  const height = page.getByLabel("Eye y", { exact: true });
+  assert.equal(await height.inputValue(), "3");
+  await height.fill("9");
+  assert.deepEqual(await camera(), { eye: [4, 9, 6] });
+  await height.fill("3");
+  assert.deepEqual(await camera(), {});
+  await assert_accessible(page, "a form with a camera");
+  await box.uncheck();
+  assert.equal(await camera(), undefined);
+});

@@ -1,0 +1,151 @@
+#include "renderer/scene/camera.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sheer {
+
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// Clip coordinates divided by w.
+glm::dvec3 project(const Camera& camera, const Sphere& bounds, double aspect, const glm::dvec3& point) {
+    const glm::dvec4 clip = camera.projection(bounds, aspect) * camera.view() * glm::dvec4(point, 1);
+    return glm::dvec3(clip) / clip.w;
+}
+
+/// From 4 before the origin, where a right angle sees 4 up and 4 down.
+TEST(Camera, ProjectsByHand) {
+    const Camera camera{{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 90};
+    const Sphere bounds{{0, 0, 0}, 2};
+    const glm::dvec3 point = project(camera, bounds, 2, {2, 1, 0});
+    EXPECT_NEAR(point.x, 0.25, 1e-12);
+    EXPECT_NEAR(point.y, 0.25, 1e-12);
+    // near 2, far 6: depth f (z - n) / (z (f - n)) = 6 * 2 / (4 * 4) at z = 4
+    EXPECT_NEAR(point.z, 0.75, 1e-12);
+    EXPECT_NEAR(project(camera, bounds, 2, {0, 0, 2}).z, 0, 1e-12);
+    EXPECT_NEAR(project(camera, bounds, 2, {0, 0, -2}).z, 1, 1e-12);
+}
+
+TEST(Camera, SeesFromAnySide) {
+    // From the right: what is before the scene is on the left of the picture.
+    const Camera camera{{5, 0, 0}, {0, 0, 0}, {0, 1, 0}, 60};
+    EXPECT_LT(project(camera, {{0, 0, 0}, 2}, 1, {0, 0, 1}).x, 0);
+    EXPECT_GT(project(camera, {{0, 0, 0}, 2}, 1, {0, 1, 0}).y, 0);
+}
+
+TEST(Camera, KeepsANearPlaneWithinTheScene) {
+    const Camera camera{{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 60};
+    const Sphere bounds{{0, 0, 0}, 3};  // far 4, near 0.004
+    EXPECT_NEAR(project(camera, bounds, 1, {0, 0, 1 - 0.004}).z, 0, 1e-9);
+    EXPECT_NEAR(project(camera, bounds, 1, {0, 0, -3}).z, 1, 1e-9);
+}
+
+/// The sphere's outline touches the upper and lower edge of a wide picture, and the left and right of a tall one.
+TEST(Camera, FramesASphere) {
+    const Sphere bounds{{1, 2, 3}, 1.5};
+    for (const double aspect : {0.5, 1.0, 2.0}) {
+        SCOPED_TRACE(aspect);
+        const Camera camera = read_camera(nullptr, bounds, {0, 0, 1}, aspect);
+        const glm::dvec3 middle = project(camera, bounds, aspect, bounds.centre);
+        EXPECT_NEAR(middle.x, 0, 1e-9);
+        EXPECT_NEAR(middle.y, 0, 1e-9);
+        double furthest = 0;
+        for (int i = 0; i < 3600; ++i) {
+            const double angle = i * 2 * 3.14159265358979 / 3600;
+            for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)}) {
+                const glm::dvec3 on_sphere =
+                    bounds.centre + bounds.radius * (std::cos(angle) * axis + std::sin(angle) * glm::dvec3(0, 0, 1));
+                const glm::dvec3 seen = project(camera, bounds, aspect, on_sphere);
+                furthest = std::max({furthest, std::abs(seen.x), std::abs(seen.y)});
+                EXPECT_GE(seen.z, -1e-9);
+                EXPECT_LE(seen.z, 1 + 1e-9);
+            }
+        }
+        EXPECT_NEAR(furthest, 1, 1e-5);
+    }
+}
+
+TEST(Camera, BoundsHoldTheVertices) {
+    std::vector<Vertex> vertices(2);
+    vertices[0].position = {0, 0, 0};
+    vertices[1].position = {2, 4, 4};
+    const Sphere sphere = bounding_sphere(vertices);
+    EXPECT_EQ(sphere.centre, glm::dvec3(1, 2, 2));
+    EXPECT_NEAR(sphere.radius, 3, 1e-12);
+}
+
+/// Two quads, at 3 and at 5 ahead; off the line of sight it is the depth that counts, not the distance.
+TEST(Camera, GivesPrimitivesTheirDepth) {
+    Geometry geometry;
+    geometry.add_rect(0, 0, 1, 1, 1, glm::vec4(1), false);  // z = 1
+    geometry.add_rect(2, 0, 4, 1, -1, glm::vec4(1), false);
+    look_through(geometry, {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 60}, {{0, 0, 0}, 2}, 1);
+    EXPECT_FLOAT_EQ(geometry.primitives[0].depth, 3);
+    EXPECT_FLOAT_EQ(geometry.primitives[1].depth, 5);
+}
+
+std::vector<std::string> wrong_fields(const json& camera, const std::string& type = "foliage", int count = 1) {
+    std::vector<std::string> pointers;
+    try {
+        parse_spec({{"scene", {{"type", type}, {"camera", camera}, {"seed", count}}}, {"methods", {"b2f"}}});
+    } catch (const SpecError& error) {
+        for (const FieldError& field : error.errors()) pointers.push_back(field.pointer);
+    }
+    return pointers;
+}
+
+TEST(Camera, DegenerateOnesAreErrors) {
+    for (const std::string type : {"foliage", "particles"}) {
+        SCOPED_TRACE(type);
+        EXPECT_THAT(wrong_fields(nullptr, type), IsEmpty());
+        EXPECT_THAT(wrong_fields(json::object(), type), IsEmpty());
+        EXPECT_THAT(wrong_fields({{"eye", {1, 2, 3}}, {"target", {1, 2, 3}}}, type),
+                    ElementsAre("/scene/camera/target"));
+        EXPECT_THAT(wrong_fields({{"eye", {0, 9, 0}}, {"target", {0, 1, 0}}}, type), ElementsAre("/scene/camera/up"));
+        EXPECT_THAT(wrong_fields({{"eye", {0, 0, 5}}, {"target", {0, 0, 0}}, {"up", {0, 0, -3}}}, type),
+                    ElementsAre("/scene/camera/up"));
+        EXPECT_THAT(wrong_fields({{"up", {0, 0, 0}}}, type), ElementsAre("/scene/camera/up"));
+    }
+}
+
+TEST(Camera, WrongFieldsAreNamedWithTheOthers) {
+    EXPECT_THAT(wrong_fields({{"fov_y_deg", 180}}), ElementsAre("/scene/camera/fov_y_deg"));
+    EXPECT_THAT(wrong_fields({{"eye", {1, 2}}}), ElementsAre("/scene/camera/eye"));
+    EXPECT_THAT(wrong_fields("front"), ElementsAre("/scene/camera"));
+    EXPECT_THAT(wrong_fields({{"eye", {0, 9, 0}}, {"target", {0, 1, 0}}}, "foliage", -1),
+                testing::UnorderedElementsAre("/scene/seed", "/scene/camera/up"));
+    // A wrong eye stands as the default until it is put right: no second error may follow from that.
+    EXPECT_THAT(wrong_fields({{"eye", "x"}, {"target", {4, 3, 6}}}), ElementsAre("/scene/camera/eye"));
+}
+
+TEST(Camera, IsNullOrWholeInTheNormalisedSpec) {
+    const auto normalised = [](const json& scene) {
+        return parse_spec({{"scene", scene}, {"methods", {"b2f"}}}).scene.at("camera");
+    };
+    EXPECT_EQ(normalised({{"type", "foliage"}}), nullptr);
+    EXPECT_EQ(
+        normalised({{"type", "foliage"}, {"camera", {{"eye", {0, 1, 9}}}}}),
+        json({{"eye", {0.0, 1.0, 9.0}}, {"target", {0.0, 1.5, 0.0}}, {"up", {0.0, 1.0, 0.0}}, {"fov_y_deg", 40.0}}));
+}
+
+TEST(Camera, IsDescribedAsOptional) {
+    const json described = to_json({camera_parameter()}).front();
+    EXPECT_EQ(described["kind"], "object");
+    EXPECT_EQ(described["optional"], true);
+    EXPECT_EQ(described["required"], false);
+    EXPECT_EQ(described["default"], nullptr);
+    EXPECT_EQ(described["fields"].size(), 4u);
+    const json schema = schema_of({camera_parameter()});
+    EXPECT_EQ(schema["properties"]["camera"]["type"], json({"object", "null"}));
+    EXPECT_FALSE(schema.contains("required"));
+}
+
+}  // namespace
+
+}  // namespace sheer
