@@ -8,6 +8,8 @@
 // `zcull`: a pass of a quarter of the width and height first keeps the depth of the `layers`-th fragment, and two
 // triangles for each of its pixels prime the depth buffer, so that whole groups of fragments behind it fail at once. A
 // coarse pixel decides for 4 x 4: where fewer fragments than at its middle lie before that depth, some are lost.
+// With the alpha test a fragment must be shaded before it may count, so that a driver need not stop it early; with
+// `min_alpha` 0 the stencil test comes before the shader.
 // Good at: haze and smoke of very many faint layers; the time is bounded. Bad at: sharp things behind the cap are lost,
 // colours drift from the truth, and the picture needs some frames to settle.
 // Parameters: `layers` 1..255, 8; `min_alpha` 0..1, 0.02; `frames` 1..1000, 30; `zcull`, off.
@@ -23,7 +25,9 @@ MethodInfo method_stencil_cap() {
         .summary = "F2B of the nearest few fragments of each pixel; the blurred previous frame stands for the rest.",
         .paper = "Drawing in Reverse, 2007-09-26",
         .good_at = "Haze of very many faint layers: no pixel is ever blended more than a few times.",
-        .bad_at = "What lies behind the cap is guessed; the guess takes some frames to settle and may stay wrong.",
+        .bad_at =
+            "What lies behind the cap is guessed and settles over frames; a min_alpha over 0 may cost the early "
+            "stencil test.",
         .memory = "3.5 pixels of the image format, 8 bytes of depth and stencil, and half a byte more with zcull",
         .parameters = stencil_cap_parameters(),
         .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> { return std::make_unique<StencilCap>(setup); },
