@@ -6,7 +6,7 @@ import { assert_problem, QUICK, Service, sleep } from "./service.mjs";
 
 const service = new Service({ workers: 0, allowed_hosts: ["sheer.test"], http: { header_timeout_s: 0.5, body_timeout_s: 0.5 } });
 before(() => service.start());
-after(() => service.end());
+after(() => service.end_well());
 
 function validate(spec) {
   return fetch(`${service.api}/specs/validate`, { method: "POST", body: JSON.stringify(spec),

@@ -5,7 +5,7 @@ import { assert_problem, QUICK, Service, until } from "./service.mjs";
 
 const service = new Service();
 before(() => service.start());
-after(() => service.end());
+after(() => service.end_well());
 
 const get_json = async (path) => {
   const response = await fetch(service.api + path);

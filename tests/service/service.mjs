@@ -101,6 +101,13 @@ export class Service {
     rmSync(this.folder, { recursive: true, force: true });
   }
 
+  /** The end of a service that should be well: a sanitizer's complaint shows in the exit code. */
+  async end_well() {
+    const ended = await this.stop();
+    await this.end();
+    assert.deepEqual(ended, { code: 0, signal: null }, this.log);
+  }
+
   workers() { return children_of(this.process.pid).filter((pid) => command_line(pid)[1] === "worker"); }
 
   /** The children that render jobs, without those that probe. */
@@ -164,6 +171,7 @@ export async function with_service(config, body) {
   try {
     await service.start();
     await body(service);
+    await service.end_well();
   } finally {
     await service.end();
   }
