@@ -210,7 +210,7 @@ class ReportMaker {
         for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i)
             if (ours[i] > 0) ratios.push_back(theirs[i] / ours[i]);
         if (ratios.empty()) return nullptr;
-        const auto interval = median_interval_95(ratios);
+        const auto interval = median_interval(ratios, 0.05);
         std::string resolved = "not resolved";
         if (interval && interval->first > 1) resolved = "faster";
         if (interval && interval->second < 1) resolved = "slower";

@@ -2,9 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace sheer {
+
+namespace {
+
+constexpr double error_rate = 0.05;
+
+double median_deviation(const std::vector<double>& samples, double middle) {
+    std::vector<double> deviations;
+    for (const double sample : samples) deviations.push_back(std::abs(sample - middle));
+    return median(deviations);
+}
+
+}  // namespace
 
 double median(std::vector<double> samples) {
     if (samples.empty()) throw std::invalid_argument("the median of no samples");
@@ -20,7 +33,7 @@ double percentile(std::vector<double> samples, double percent) {
     return samples[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-std::optional<std::pair<double, double>> median_interval_95(std::vector<double> samples) {
+std::optional<std::pair<double, double>> median_interval(std::vector<double> samples, double error_rate) {
     const std::size_t count = samples.size();
     // P(at most k of n samples lie under the median) under Binomial(n, 1/2), as logarithms: n may be 1000.
     double tail = 0;
@@ -28,7 +41,7 @@ std::optional<std::pair<double, double>> median_interval_95(std::vector<double> 
     for (std::size_t k = 0; 2 * (k + 1) <= count; ++k) {
         const auto n = static_cast<double>(count), i = static_cast<double>(k);
         tail += std::exp(std::lgamma(n + 1) - std::lgamma(i + 1) - std::lgamma(n - i + 1) - n * std::log(2.0));
-        if (tail > 0.025) break;
+        if (tail > error_rate / 2) break;
         rank = k;
     }
     if (!rank) return std::nullopt;
@@ -36,15 +49,53 @@ std::optional<std::pair<double, double>> median_interval_95(std::vector<double> 
     return std::pair(samples[*rank], samples[count - 1 - *rank]);
 }
 
+std::vector<std::size_t> outliers(const std::vector<double>& samples) {
+    const double middle = median(samples), spread = median_deviation(samples, middle);
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (0.6745 * std::abs(samples[i] - middle) > 3.5 * spread) found.push_back(i);
+    return found;
+}
+
+std::vector<double> paired_ratios(const std::vector<double>& baseline, const std::vector<double>& method) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < std::min(baseline.size(), method.size()); ++i)
+        if (method[i] > 0) ratios.push_back(baseline[i] / method[i]);
+    return ratios;
+}
+
+NoiseFloor noise_floor(const std::vector<double>& ratios) {
+    NoiseFloor noise{median(ratios), median_interval(ratios, error_rate), 1};
+    const auto [least, greatest] = std::ranges::minmax(ratios);
+    const auto [low, high] = noise.ci95.value_or(std::pair(least, greatest));
+    noise.factor = std::max({1.0, high, low > 0 ? 1 / low : std::numeric_limits<double>::infinity()});
+    return noise;
+}
+
+Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise) {
+    Speedup speedup;
+    speedup.value = median(ratios);
+    speedup.ci95 = median_interval(ratios, error_rate / static_cast<double>(compared));
+    const double factor = noise ? noise->factor : 1;
+    if (!speedup.ci95) {
+        speedup.reason = "too few rounds for an interval";
+    } else if (speedup.ci95->first <= 1 && speedup.ci95->second >= 1) {
+        speedup.reason = "the interval holds 1";
+    } else if (speedup.value <= factor && speedup.value >= 1 / factor) {
+        speedup.reason = "inside the noise floor";
+    } else {
+        speedup.verdict = speedup.value > 1 ? Verdict::faster : Verdict::slower;
+    }
+    return speedup;
+}
+
 Summary summarize(std::vector<double> samples) {
     Summary summary;
     summary.median = median(samples);
-    std::vector<double> deviations;
-    for (const double sample : samples) deviations.push_back(std::abs(sample - summary.median));
-    summary.mad = median(deviations);
+    summary.mad = median_deviation(samples, summary.median);
     summary.min = *std::ranges::min_element(samples);
     summary.p95 = percentile(samples, 95);
-    summary.ci95 = median_interval_95(std::move(samples));
+    summary.ci95 = median_interval(std::move(samples), error_rate);
     return summary;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,8 +25,44 @@ double median(std::vector<double> samples);
 double percentile(std::vector<double> samples, double percent);
 
 /// Distribution-free interval for the median from order statistics (the sign test inverted; Conover, Practical
-/// Nonparametric Statistics, section 3.2): the narrowest symmetric pair of ranks whose coverage is at least 95 %.
-/// None for fewer than 6 samples, where no pair reaches it.
-std::optional<std::pair<double, double>> median_interval_95(std::vector<double> samples);
+/// Nonparametric Statistics, section 3.2): the narrowest symmetric pair of ranks that misses the median with a
+/// probability of at most `error_rate`, in (0, 1). None where there are too few samples for any pair to reach it: fewer
+/// than 6 at 0.05.
+std::optional<std::pair<double, double>> median_interval(std::vector<double> samples, double error_rate);
+
+/// Which samples lie far from the rest, by index: those whose modified z-score, 0.6745 |x - median| / MAD, is over 3.5
+/// (Iglewicz and Hoaglin, How to Detect and Handle Outliers, 1993). Where the MAD is 0, all that are not the median.
+std::vector<std::size_t> outliers(const std::vector<double>& samples);
+
+/// Baseline's time over the method's, round by round: what slows both of them down cancels out. A round in which the
+/// method took no time at all has no ratio and is left out.
+std::vector<double> paired_ratios(const std::vector<double>& baseline, const std::vector<double>& method);
+
+/// How far a method is from itself: the ratios of two instances of the baseline, timed like any other two methods.
+struct NoiseFloor {
+    double value = 1;                               ///< median ratio
+    std::optional<std::pair<double, double>> ci95;  ///< of the median ratio
+    /// A ratio in [1 / factor, factor] is no more than what two instances of one method may differ by. At least 1: the
+    /// farther end of `ci95` from 1, or without an interval of the ratios themselves.
+    double factor = 1;
+};
+
+/// `ratios` must not be empty.
+NoiseFloor noise_floor(const std::vector<double>& ratios);
+
+enum class Verdict { faster, slower, not_resolved };
+
+/// The method against the baseline.
+struct Speedup {
+    double value = 1;  ///< median ratio
+    /// Holds the median ratio with 95 % together with those of all methods compared (Bonferroni).
+    std::optional<std::pair<double, double>> ci95;
+    Verdict verdict = Verdict::not_resolved;
+    std::string reason;  ///< why not resolved
+};
+
+/// `ratios` must not be empty; `compared` is how many methods, from 1, are held against the baseline. Resolved is what
+/// lies to one side of 1 with its whole interval and farther from 1 than the noise floor, if there is one.
+Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise);
 
 }  // namespace sheer

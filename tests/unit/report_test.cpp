@@ -9,7 +9,6 @@
 #include <map>
 
 #include "renderer/report/picture_file.h"
-#include "renderer/report/statistics.h"
 
 namespace sheer {
 
@@ -18,39 +17,6 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
-
-TEST(Statistics, OfSevenByHand) {
-    // Sorted 1 2 3 4 5 6 20: median 4, deviations 0 1 1 2 2 3 16 with median 2, 95 % of 7 is rank 7.
-    const Summary summary = summarize({5, 1, 20, 4, 3, 6, 2});
-    EXPECT_EQ(summary.median, 4);
-    EXPECT_EQ(summary.mad, 2);
-    EXPECT_EQ(summary.min, 1);
-    EXPECT_EQ(summary.p95, 20);
-    // 2 / 2^7 = 1.6 % lies outside the whole range, 2 (1 + 7) / 2^7 = 12.5 % outside the second to sixth.
-    ASSERT_TRUE(summary.ci95.has_value());
-    EXPECT_EQ(*summary.ci95, std::pair(1.0, 20.0));
-}
-
-TEST(Statistics, OfTenByHand) {
-    // 2 (1 + 10) / 2^10 = 2.1 % outside ranks 2 to 9, 2 (1 + 10 + 45) / 2^10 = 10.9 % outside 3 to 8.
-    EXPECT_EQ(median_interval_95({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}), std::pair(2.0, 9.0));
-    EXPECT_EQ(median({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}), 5.5);
-    EXPECT_EQ(percentile({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}, 95), 10);
-    EXPECT_EQ(percentile({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}, 50), 5);
-}
-
-TEST(Statistics, FiveSamplesGiveNoInterval) {
-    // 2 / 2^5 = 6.25 % outside even the whole range.
-    EXPECT_EQ(median_interval_95({1, 2, 3, 4, 5}), std::nullopt);
-    EXPECT_THROW(summarize({}), std::invalid_argument);
-}
-
-/// Ranks 40 to 61 of 100 hold the median with 96.5 % (tables of the sign test).
-TEST(Statistics, OfAHundred) {
-    std::vector<double> samples;
-    for (int i = 1; i <= 100; ++i) samples.push_back(i);
-    EXPECT_EQ(median_interval_95(samples), std::pair(40.0, 61.0));
-}
 
 TEST(Sha256, OfKnownTexts) {
     EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
