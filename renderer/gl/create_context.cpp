@@ -99,7 +99,7 @@ std::unique_ptr<Context> create_context(const ContextRequest& request, std::span
         if (request.context == "auto" ? !kind.automatic : request.context != kind.name) continue;
         if (auto context = best_of(kind.candidates(), selection, request, reasons)) return context;
     }
-    if (reasons.empty()) reasons.push_back("there is none of that name");
+    if (reasons.empty()) reasons.emplace_back("there is none of that name");
     throw Unsupported(fmt::format("no OpenGL 4.5 context '{}'{}: {}", request.context,
                                   selection.any() ? "" : fmt::format(" on device '{}'", request.device),
                                   fmt::join(reasons, "; ")));

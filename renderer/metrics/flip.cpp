@@ -32,8 +32,8 @@ class Distribution {
 
     /// Nearest rank: the smallest value that at least `percent` % of the pixels do not exceed.
     double percentile(std::uint64_t percent) const {
-        const double rank = double((m_values.size() * percent + 99) / 100);
-        return find(rank, [](double count, double) { return count; });
+        const std::size_t rank = (m_values.size() * percent + 99) / 100;
+        return find(double(rank), [](double count, double) { return count; });
     }
 
     /// Pixels weighted by their own value: the smallest value such that the pixels that do not exceed it hold at least

@@ -16,7 +16,8 @@ std::array<std::uint8_t, 511> picture_levels() {
     std::array<std::uint8_t, 511> levels{};
     for (int difference = -255; difference <= 255; ++difference) {
         const int size = int(std::lround(127 * std::sqrt(std::abs(difference) / 255.0)));
-        levels[std::size_t(difference + 255)] = std::uint8_t(128 + (difference < 0 ? -size : size));
+        const int index = difference + 255;
+        levels[std::size_t(index)] = std::uint8_t(128 + (difference < 0 ? -size : size));
     }
     return levels;
 }
@@ -24,8 +25,10 @@ std::array<std::uint8_t, 511> picture_levels() {
 Image8 draw(const Image8& reference, const Image8& test) {
     const auto levels = picture_levels();
     Image8 picture(reference.width_px, reference.height_px);
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-        picture.rgb[i] = levels[std::size_t(int(reference.rgb[i]) - int(test.rgb[i]) + 255)];
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+        const int index = reference.rgb[i] - test.rgb[i] + 255;
+        picture.rgb[i] = levels[std::size_t(index)];
+    }
     return picture;
 }
 

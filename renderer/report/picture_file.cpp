@@ -10,7 +10,8 @@ namespace sheer {
 namespace {
 
 /// `format` names the writer: "png" or "openexr".
-std::string encode(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
+std::string encode(const std::string& format, const OIIO::ImageSpec& spec, const OIIO::TypeDesc& type,
+                   const void* pixels) {
     const auto output = OIIO::ImageOutput::create(format);
     if (!output) throw std::runtime_error("no writer for " + format + ": " + OIIO::geterror());
     std::vector<unsigned char> bytes;

@@ -271,12 +271,12 @@ Param Param::text(std::string name, std::string summary, std::string fallback, s
     return param;
 }
 
-Param Param::numbers(std::string name, std::string summary, std::string unit, std::vector<double> fallback, double min,
-                     double max) {
+Param Param::numbers(std::string name, std::string summary, std::string unit, const std::vector<double>& fallback,
+                     double min, double max) {
     Param param = number(std::move(name), std::move(summary), std::move(unit), 0, min, max);
     param.kind = Kind::numbers;
     param.min_length = param.max_length = fallback.size();
-    param.default_value = std::move(fallback);
+    param.default_value = fallback;
     return param;
 }
 
@@ -316,8 +316,7 @@ json read_fields(const json& object, const std::string& pointer, const std::vect
         }
     }
     for (const auto& [key, value] : object.items()) {
-        const bool known = std::ranges::any_of(fields, [&](const Param& param) { return param.name == key; });
-        if (known) continue;
+        if (std::ranges::find(fields, key, &Param::name) != fields.end()) continue;
         std::vector<std::string> names;
         for (const Param& param : fields) names.push_back(param.name);
         errors.push_back({pointer + "/" + pointer_token(key),

@@ -35,7 +35,7 @@ struct Param {
     static Param choice(std::string name, std::string summary, std::string fallback, std::vector<std::string> choices);
     static Param text(std::string name, std::string summary, std::string fallback, std::size_t max_length_bytes);
     /// A fixed count of numbers, such as a colour.
-    static Param numbers(std::string name, std::string summary, std::string unit, std::vector<double> fallback,
+    static Param numbers(std::string name, std::string summary, std::string unit, const std::vector<double>& fallback,
                          double min, double max);
     static Param object(std::string name, std::string summary, std::vector<Param> fields);
     static Param list(std::string name, std::string summary, std::vector<Param> fields, std::size_t min_length,

@@ -37,17 +37,17 @@ std::string schema_text() {
     throw StoreError("the program was built without schema.sql");
 }
 
-std::optional<std::int64_t> optional_int(SQLite::Column column) {
+std::optional<std::int64_t> optional_int(const SQLite::Column& column) {
     if (column.isNull()) return std::nullopt;
     return column.getInt64();
 }
 
-std::optional<JobError> error_of(SQLite::Column title, SQLite::Column detail) {
+std::optional<JobError> error_of(const SQLite::Column& title, const SQLite::Column& detail) {
     if (title.isNull()) return std::nullopt;
     return JobError{title.getString(), detail.getString()};
 }
 
-Status status_of(SQLite::Column column) {
+Status status_of(const SQLite::Column& column) {
     const auto status = status_from(column.getString());
     if (!status) throw StoreError("archive: unknown status " + column.getString());
     return *status;

@@ -93,8 +93,8 @@ Answer get_events(Service& service, const Request& request) {
     return stream;
 }
 
-Route route(std::string method, std::string suffix, std::string id, std::string summary, std::vector<Reply> replies,
-            Handler handle) {
+Route route(std::string method, const std::string& suffix, std::string id, std::string summary,
+            std::vector<Reply> replies, Handler handle) {
     replies.push_back({404, "There is no such report", "application/problem+json", "Problem"});
     return {.method = std::move(method),
             .pattern = std::string(reports_path) + "/{id}" + suffix,

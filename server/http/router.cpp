@@ -55,12 +55,12 @@ Match Router::match(std::string_view method, std::string_view path) const {
         auto values = fit(route.pattern, path);
         if (!values) continue;
         match.allowed.push_back(route.method);
-        if (route.method == "GET") match.allowed.push_back("HEAD");
+        if (route.method == "GET") match.allowed.emplace_back("HEAD");
         if (route.method != wanted) continue;
         match.route = &route;
         match.path_values = std::move(*values);
     }
-    if (!match.allowed.empty()) match.allowed.push_back("OPTIONS");
+    if (!match.allowed.empty()) match.allowed.emplace_back("OPTIONS");
     return match;
 }
 

@@ -89,7 +89,9 @@ struct BadSpec {
     std::string pointer;
 };
 
-void PrintTo(const BadSpec& spec, std::ostream* out) { *out << spec.document; }
+void PrintTo(const BadSpec& spec, std::ostream* out) {
+    *out << spec.document;
+}
 
 class BadSpecs : public testing::TestWithParam<BadSpec> {};
 
