@@ -50,6 +50,7 @@ void begin_pass(const gl::Functions& gl, const gl::Framebuffer& framebuffer, int
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     gl.Viewport(0, 0, width_px, height_px);
+    gl.DepthRange(0, 1);
     for (const GLenum capability : {GL_BLEND, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE, GL_DITHER,
                                     GL_SAMPLE_ALPHA_TO_COVERAGE})
         gl.Disable(capability);

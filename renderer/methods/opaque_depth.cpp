@@ -160,7 +160,6 @@ class OpaqueDepth : public Method {
         m_gl.DepthRange(1, 1);
         m_gl.BindTextureUnit(first_method_texture_unit, m_accumulation.readable_alpha().id());
         m_saturated.draw();
-        m_gl.DepthRange(0, 1);
     }
 
     void draw_twice() const {
