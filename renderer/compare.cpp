@@ -24,12 +24,12 @@ constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0
 /// The stages of one point; each fills in its part of the run.
 class Comparer {
   public:
-    Comparer(const Spec& spec, gl::Context& context, const ProgressFunction& progress)
-        : m_spec(spec), m_context(context), m_progress(progress), m_timer(context) {}
+    Comparer(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress)
+        : m_spec(spec), m_context(context), m_assets(assets), m_progress(progress), m_timer(context) {}
 
     Run run() {
         m_progress(0, "building the scene");
-        const Geometry geometry = find_scene(m_spec.scene_type)->build(m_spec.scene, m_spec.image);
+        const Geometry geometry = build_geometry(m_spec.scene, m_spec.image, m_assets);
         const Scene scene(m_context.gl(), geometry, m_spec.scene);
         Run run;
         render_reference(scene, run);
@@ -153,6 +153,7 @@ class Comparer {
 
     const Spec& m_spec;
     gl::Context& m_context;
+    AssetReader& m_assets;
     const ProgressFunction& m_progress;
     gl::FrameTimer m_timer;
     std::vector<Contender> m_contenders;
@@ -160,11 +161,11 @@ class Comparer {
 
 }  // namespace
 
-Comparison compare(const Spec& spec, gl::Context& context, const ProgressFunction& progress) {
+Comparison compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress) {
     Comparison comparison;
     comparison.device = context.device();
     comparison.workarounds = context.workarounds().names();
-    comparison.runs.push_back(Comparer(spec, context, progress).run());
+    comparison.runs.push_back(Comparer(spec, context, assets, progress).run());
     return comparison;
 }
 

@@ -10,6 +10,7 @@
 #include "renderer/gl/context.h"
 #include "renderer/gl/timer.h"
 #include "renderer/metrics/metric.h"
+#include "renderer/scene/assets.h"
 #include "renderer/spec/spec.h"
 
 namespace sheer {
@@ -47,6 +48,7 @@ using ProgressFunction = std::function<void(double fraction, const std::string& 
 
 /// Renders every method of the spec and its reference, times them, and measures the difference.
 /// A method that this device cannot run is reported as unsupported. Throws RenderError if rendering fails as a whole.
-Comparison compare(const Spec& spec, gl::Context& context, const ProgressFunction& progress);
+/// Throws SpecError for a file of the spec that `assets` cannot read.
+Comparison compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress);
 
 }  // namespace sheer

@@ -15,7 +15,7 @@ constexpr int texture_count = 4;
 
 /// What `shading` of a spec means to shaders/scenes/real_work.glsl.
 struct Shading {
-    const char* name;
+    std::string_view name;
     int reads;  // texture reads of a fragment, from the textures in turn
     bool math;
 };
@@ -23,10 +23,10 @@ constexpr Shading shadings[] = {{"constant", 0, false},      {"1-texture", 1, fa
                                 {"4-textures", 4, false},    {"4-textures-math", 4, true},
                                 {"4x4-textures", 16, false}, {"4x4-textures-math", 16, true}};
 
-const Shading& find_shading(const std::string& name) {
-    for (const Shading& shading : shadings)
-        if (shading.name == name) return shading;
-    throw std::invalid_argument("no shading is called " + name);
+/// Null for a shading that only one scene has.
+const Shading* find_shading(const std::string& name) {
+    const auto* found = std::ranges::find(shadings, name, &Shading::name);
+    return found == std::end(shadings) ? nullptr : found;
 }
 
 std::string define(const std::string& name, int value) {
@@ -44,10 +44,7 @@ void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry)
 
 Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters)
     : m_gl(gl), m_parallel(geometry.parallel), m_view_projection(geometry.view_projection) {
-    const Shading& shading = find_shading(parameters.at("shading").get<std::string>());
-    m_reads = shading.reads;
-    m_shading_prolog = define("TEXTURED", shading.reads > 0) + define("MATH", shading.math);
-    if (shading.reads > 0) make_textures(parameters.at("texture"));
+    make_shading(geometry, parameters);
 
     m_vertices =
         gl::make_buffer(gl, "scene vertices", static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(Vertex)),
@@ -94,10 +91,28 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
     return list;
 }
 
-void Scene::make_textures(const nlohmann::json& texture) {
+void Scene::make_shading(const Geometry& geometry, const nlohmann::json& parameters) {
+    const auto name = parameters.at("shading").get<std::string>();
+    m_shading_source = gl::shader_file("scenes/inputs.glsl");
+    if (const Shading* shading = find_shading(name)) {
+        m_reads = shading->reads;
+        m_shading_source += define("TEXTURED", shading->reads > 0) + define("MATH", shading->math);
+        m_shading_source += gl::shader_file("scenes/real_work.glsl");
+        if (shading->reads > 0) make_textures(geometry, parameters.at("texture"));
+    } else {
+        m_shading_source += gl::shader_file("scenes/" + name + ".glsl");
+    }
+}
+
+void Scene::make_textures(const Geometry& geometry, const nlohmann::json& texture) {
     GLuint id = 0;
     m_gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
     m_textures = gl::Texture(m_gl, id, "scene textures");
+    m_gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    m_gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    if (geometry.texture) return fill_textures(*geometry.texture);
     for (int variant = 0; variant < texture_count; ++variant) {
         const auto levels =
             make_texture(texture.at("image").get<std::string>(), texture.at("size").get<int>(), variant);
@@ -110,16 +125,22 @@ void Scene::make_textures(const nlohmann::json& texture) {
                                    GL_UNSIGNED_BYTE, pixels.rgba.data());
         }
     }
-    m_gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    m_gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_REPEAT);
+}
+
+void Scene::fill_textures(const Picture& picture) {
+    const std::vector<Image> levels = make_mipmaps(picture.image);
+    m_gl.TextureStorage3D(m_textures.id(), static_cast<GLsizei>(levels.size()),
+                          picture.eight_bit ? GL_RGBA8 : GL_RGBA16F, picture.image.width_px, picture.image.height_px,
+                          texture_count);
+    for (std::size_t level = 0; level < levels.size(); ++level)
+        for (int layer = 0; layer < texture_count; ++layer)
+            m_gl.TextureSubImage3D(m_textures.id(), static_cast<GLint>(level), 0, 0, layer, levels[level].width_px,
+                                   levels[level].height_px, 1, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
 }
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
                                 const std::string& prolog) const {
-    const std::string fragment = glsl_version + prolog + m_shading_prolog +
-                                 std::string(gl::shader_file("scenes/real_work.glsl")) + std::string(method_source);
+    const std::string fragment = glsl_version + prolog + m_shading_source + std::string(method_source);
     return gl::Program(m_gl, label, gl::shader_file("scenes/scene.vert.glsl"), fragment);
 }
 

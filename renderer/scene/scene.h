@@ -25,7 +25,7 @@ class Scene {
 
     /// A program that draws this scene: its vertex stage, `real_work(vec2 uv, vec4 tint)`, then `method_source` with
     /// main(). `prolog` comes right after #version: #extension and #define lines.
-    /// main() sees: in vec2 v_uv; in vec4 v_tint; flat in uint v_primitive.
+    /// main() sees what is in shaders/scenes/inputs.glsl.
     gl::Program make_program(std::string_view label, std::string_view method_source,
                              const std::string& prolog = {}) const;
 
@@ -41,14 +41,16 @@ class Scene {
         std::vector<std::size_t> first_index;  ///< of each primitive, and one past the last
     };
     DrawList make_list(const Geometry& geometry, const std::vector<std::size_t>& order, std::string_view label) const;
-    void make_textures(const nlohmann::json& texture);
+    void make_shading(const Geometry& geometry, const nlohmann::json& parameters);
+    void make_textures(const Geometry& geometry, const nlohmann::json& texture);
+    void fill_textures(const Picture& picture);
     void bind(const gl::Program& program, const gl::Buffer& indices) const;
     const DrawList& list(Order order) const { return m_lists[static_cast<std::size_t>(order)]; }
 
     const gl::Functions& m_gl;
     bool m_parallel;
     glm::mat4 m_view_projection;
-    std::string m_shading_prolog;
+    std::string m_shading_source;  ///< GLSL with inputs and real_work
     std::size_t m_transparent_count = 0;
     GLsizei m_opaque_index_count = 0;
     gl::Buffer m_vertices;

@@ -20,13 +20,36 @@ const SceneInfo* find_scene(const std::string& id) {
 
 std::vector<Param> SceneInfo::all_parameters() const {
     std::vector<Param> all = parameters;
-    all.push_back(
-        Param::choice("shading", "what the fragment shader does: textures read and positions bent", default_shading,
-                      {"constant", "1-texture", "4-textures", "4-textures-math", "4x4-textures", "4x4-textures-math"}));
+    std::vector<std::string> shadings = {"constant",        "1-texture",    "4-textures",
+                                         "4-textures-math", "4x4-textures", "4x4-textures-math"};
+    if (!own_shading.empty()) shadings.push_back(own_shading);
+    all.push_back(Param::choice("shading", "what the fragment shader does: textures read and positions bent",
+                                default_shading, std::move(shadings)));
     all.push_back(Param::object("texture", "the four textures that the shading reads",
-                                {Param::choice("image", "what they show", default_texture, {"leaf", "smoke"}),
+                                {Param::asset("image", "what they show", "texture", default_texture, {"leaf", "smoke"}),
                                  Param::integer("size", "width and height", "px", 1024, 1, 4096)}));
     return all;
+}
+
+Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets) {
+    const SceneInfo& info = *find_scene(scene.at("type"));
+    std::string field = "/scene/" + info.asset_field;
+    try {
+        Geometry geometry = info.build(scene, image, assets);
+        field = "/scene/texture/image";
+        for (const AssetReference& reference : scene_assets(scene)) {
+            if (reference.pointer != field) continue;
+            const int size_px = scene.at("texture").at("size");
+            geometry.texture = assets.picture(reference.name, size_px, size_px);
+        }
+        return geometry;
+    } catch (const AssetError& error) {
+        throw SpecError(std::vector<FieldError>{{field, error.what()}});
+    }
+}
+
+std::vector<AssetReference> scene_assets(const nlohmann::json& scene) {
+    return find_assets(scene, "/scene", find_scene(scene.at("type"))->all_parameters());
 }
 
 void Geometry::add_rect(double x0, double y0, double x1, double y1, float depth, const glm::vec4& tint, bool opaque,

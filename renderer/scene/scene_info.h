@@ -3,9 +3,11 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/scene/assets.h"
 #include "renderer/spec/param.h"
 #include "renderer/spec/spec.h"
 
@@ -35,6 +37,7 @@ struct Geometry {
     std::vector<std::uint32_t> indices;  ///< triangles
     std::vector<Primitive> primitives;
     glm::mat4 view_projection{1.0f};
+    std::optional<Picture> texture;  ///< square; in place of the four procedural textures
     bool parallel = false;  ///< drawing the primitives in depth order is exact: none intersect, each has one depth
 
     /// Appends a rectangle parallel to the screen: corners in fractions of the image, origin top left, y down.
@@ -51,10 +54,13 @@ struct SceneInfo {
     std::string source;             ///< paper or "Sheer"
     std::vector<Param> parameters;  ///< without those that every scene has, see all_parameters()
     std::string default_shading = "constant";
+    std::string own_shading;  ///< a shading that only this scene has: shaders/scenes/<own_shading>.glsl; "" for none
     std::string default_texture = "leaf";
     /// Adds errors that several fields make together; null where none can. `scene` is normalised and lies at `pointer`.
     std::function<void(const nlohmann::json& scene, const std::string& pointer, std::vector<FieldError>& errors)> check;
-    std::function<Geometry(const nlohmann::json& scene, const ImageSpec& image)> build;
+    /// Throws AssetError, which becomes a SpecError at the field `asset_field` of the scene.
+    std::function<Geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets)> build;
+    std::string asset_field;  ///< what `build` reads by `assets`; "" for nothing
 
     /// Its own and the ones common to all scenes: shading and texture.
     std::vector<Param> all_parameters() const;
@@ -64,5 +70,11 @@ struct SceneInfo {
 const std::vector<SceneInfo>& all_scenes();
 /// Null if there is none of this id; letter case is passed over.
 const SceneInfo* find_scene(const std::string& id);
+
+/// The scene of a normalised spec, with its texture where that is a file.
+/// Throws SpecError, at the field that refers to it, for a file that cannot be used.
+Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets);
+/// Every file that a normalised scene refers to, with pointers from /scene.
+std::vector<AssetReference> scene_assets(const nlohmann::json& scene);
 
 }  // namespace sheer

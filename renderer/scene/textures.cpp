@@ -1,6 +1,7 @@
 #include "renderer/scene/textures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <stdexcept>
@@ -177,12 +178,38 @@ TextureLevel halved(const TextureLevel& source) {
     return level;
 }
 
+Image halved(const Image& source) {
+    Image level(std::max(source.width_px / 2, 1), std::max(source.height_px / 2, 1));
+    for (int y = 0; y < level.height_px; ++y) {
+        for (int x = 0; x < level.width_px; ++x) {
+            vec4 plain(0);
+            vec3 weighted(0);
+            for (int i = 0; i < 4; ++i) {
+                const float* texel = source.pixel(std::min(2 * x + i % 2, source.width_px - 1),
+                                                  std::min(2 * y + i / 2, source.height_px - 1));
+                plain += vec4(texel[0], texel[1], texel[2], texel[3]) / 4.0f;
+                weighted += vec3(texel[0], texel[1], texel[2]) * texel[3] / 4.0f;
+            }
+            const vec3 color = plain.a > 0 ? weighted / plain.a : vec3(plain);
+            std::ranges::copy(std::array{color.r, color.g, color.b, plain.a}, level.pixel(x, y));
+        }
+    }
+    return level;
+}
+
 }  // namespace
 
 std::vector<TextureLevel> make_texture(const std::string& image, int size_px, int variant) {
     if (image != "leaf" && image != "smoke") throw std::invalid_argument("no procedural texture is called " + image);
     std::vector<TextureLevel> levels = {paint(image, size_px, variant)};
     while (levels.back().size_px > 1) levels.push_back(halved(levels.back()));
+    return levels;
+}
+
+std::vector<Image> make_mipmaps(Image picture) {
+    std::vector<Image> levels;
+    levels.push_back(std::move(picture));
+    while (levels.back().pixel_count() > 1) levels.push_back(halved(levels.back()));
     return levels;
 }
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/frame/image.h"
+
 namespace sheer {
 
 /// One level of a texture: rows from the top down, 4 interleaved channels of 8 bits, straight alpha.
@@ -18,5 +20,9 @@ struct TextureLevel {
 /// so that the bytes are the same on every platform. Mipmaps are box-filtered with the colour weighted by alpha.
 /// Throws std::invalid_argument for another `image`.
 std::vector<TextureLevel> make_texture(const std::string& image, int size_px, int variant);
+
+/// The picture and its mipmaps, down to 1x1, filtered in the same way. Each level is half the one before, rounded down;
+/// where a side is odd its last row or column is left out, as in the non-power-of-two box filter.
+std::vector<Image> make_mipmaps(Image picture);
 
 }  // namespace sheer

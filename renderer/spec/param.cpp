@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace sheer {
 
@@ -12,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t max_quoted_bytes = 80;
+constexpr std::size_t max_quoted_bytes = 80, max_asset_name_bytes = 1024;
 
 std::string kind_name(Param::Kind kind) {
     switch (kind) {
@@ -32,6 +33,8 @@ std::string kind_name(Param::Kind kind) {
             return "object";
         case Param::Kind::list:
             return "list";
+        case Param::Kind::asset:
+            return "asset";
         case Param::Kind::any:
             return "any";
     }
@@ -82,6 +85,8 @@ class ValueReader {
                 return object(value);
             case Param::Kind::list:
                 return list(value);
+            case Param::Kind::asset:
+                return asset(value);
             case Param::Kind::any:
                 return value;
         }
@@ -120,6 +125,16 @@ class ValueReader {
         if (length < m_param.min_length || length > m_param.max_length)
             return wrong(fmt::format("must have {} to {} bytes", m_param.min_length, m_param.max_length), value);
         return value;
+    }
+
+    json asset(const json& value) {
+        if (value.is_string() && !value.get_ref<const std::string&>().empty() &&
+            value.get_ref<const std::string&>().size() <= max_asset_name_bytes)
+            return value;
+        if (m_param.choices.empty()) return wrong("must be the SHA-256 of an uploaded " + m_param.asset_type, value);
+        return wrong(fmt::format("must be one of {}, or the SHA-256 of an uploaded {}",
+                                 fmt::join(m_param.choices, ", "), m_param.asset_type),
+                     value);
     }
 
     json numbers(const json& value) {
@@ -215,6 +230,9 @@ json value_schema(const Param& param) {
                       {"maxItems", param.max_length},
                       {"items", schema_of(param.fields)}};
             break;
+        case Param::Kind::asset:
+            schema = {{"type", "string"}, {"minLength", 1}, {"maxLength", max_asset_name_bytes}};
+            break;
         case Param::Kind::any:
             break;
     }
@@ -296,6 +314,15 @@ Param Param::list(std::string name, std::string summary, std::vector<Param> fiel
     return param;
 }
 
+Param Param::asset(std::string name, std::string summary, std::string type, std::string fallback,
+                   std::vector<std::string> built_in) {
+    Param param = choice(std::move(name), std::move(summary), "", std::move(built_in));
+    param.kind = Kind::asset;
+    param.default_value = fallback.empty() ? json() : json(std::move(fallback));
+    param.asset_type = std::move(type);
+    return param;
+}
+
 Param Param::required() const {
     Param param = *this;
     param.default_value = nullptr;
@@ -344,12 +371,30 @@ json to_json(const std::vector<Param>& fields) {
         if (param.exclusive) one["exclusive"] = true;
         if (param.optional) one["optional"] = true;
         if (!param.choices.empty()) one["choices"] = param.choices;
+        if (!param.asset_type.empty()) one["asset_type"] = param.asset_type;
         if (!param.fields.empty()) one["fields"] = to_json(param.fields);
         if (param.max_length > 0) one["max_length"] = param.max_length;
         if (param.min_length > 0) one["min_length"] = param.min_length;
         all.push_back(one);
     }
     return all;
+}
+
+std::vector<AssetReference> find_assets(const json& object, const std::string& pointer,
+                                        const std::vector<Param>& fields) {
+    std::vector<AssetReference> found;
+    for (const Param& param : fields) {
+        const json& value = object.at(param.name);
+        const std::string field_pointer = pointer + "/" + pointer_token(param.name);
+        if (param.kind == Param::Kind::asset && value.is_string()) {
+            const auto name = value.get<std::string>();
+            if (std::ranges::find(param.choices, name) == param.choices.end())
+                found.push_back({field_pointer, name, param.asset_type});
+        } else if (param.kind == Param::Kind::object && value.is_object()) {
+            std::ranges::move(find_assets(value, field_pointer, param.fields), std::back_inserter(found));
+        }
+    }
+    return found;
 }
 
 std::string pointer_token(const std::string& token) {

@@ -11,7 +11,7 @@ namespace sheer {
 /// One field of a spec, described once: the reader, the JSON schema, `sheer methods`, the page's forms and the docs are
 /// all made from it.
 struct Param {
-    enum class Kind { number, integer, boolean, choice, text, numbers, object, list, any };
+    enum class Kind { number, integer, boolean, choice, text, numbers, object, list, asset, any };
 
     std::string name;
     Kind kind = Kind::number;
@@ -22,7 +22,8 @@ struct Param {
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool exclusive = false;            ///< min and max themselves are not allowed
-    std::vector<std::string> choices;  ///< of a choice
+    std::vector<std::string> choices;  ///< of a choice; of an asset: the names that mean something built in
+    std::string asset_type;            ///< of an asset: texture, model or volume
     std::size_t min_length = 0;        ///< of text (bytes), numbers and lists
     std::size_t max_length = 0;
     std::vector<Param> fields;  ///< of an object, or of the objects in a list
@@ -41,6 +42,11 @@ struct Param {
     static Param list(std::string name, std::string summary, std::vector<Param> fields, std::size_t min_length,
                       std::size_t max_length);
 
+    /// A file that was uploaded, by its SHA-256, or one of `built_in`; for `sheer compare` also a path. "" for no
+    /// default.
+    static Param asset(std::string name, std::string summary, std::string type, std::string fallback,
+                       std::vector<std::string> built_in);
+
     Param required() const;
 };
 
@@ -53,6 +59,16 @@ nlohmann::json read_fields(const nlohmann::json& object, const std::string& poin
 nlohmann::json schema_of(const std::vector<Param>& fields);
 /// The same description as an array of {name, kind, summary, unit, default, min, max, choices, fields, optional}.
 nlohmann::json to_json(const std::vector<Param>& fields);
+
+/// A field of a spec that refers to a file.
+struct AssetReference {
+    std::string pointer;
+    std::string name;
+    std::string type;  ///< texture, model or volume
+};
+/// Every file that a normalised object refers to; built-in names are none.
+std::vector<AssetReference> find_assets(const nlohmann::json& object, const std::string& pointer,
+                                        const std::vector<Param>& fields);
 
 /// `token` escaped for a JSON pointer (RFC 6901).
 std::string pointer_token(const std::string& token);

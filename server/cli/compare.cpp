@@ -65,8 +65,9 @@ int run(const Options& options) {
     {
         ProgressBar bar;
         const auto context = gl::create_context(options.context);
-        const Comparison comparison =
-            compare(spec, *context, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); });
+        NoAssets assets;
+        const Comparison comparison = compare(
+            spec, *context, assets, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); });
         if (folder) {
             FolderSink sink(folder->partial());
             report = make_report(spec, comparison, sink, created_at);

@@ -51,7 +51,8 @@ int run(const Options& options) {
         const std::string created_at = utc_now();
         const Spec spec = load_spec(options.spec);
         const auto context = gl::create_context(options.context);
-        const Comparison comparison = compare(spec, *context, [](double fraction, const std::string& stage) {
+        NoAssets assets;
+        const Comparison comparison = compare(spec, *context, assets, [](double fraction, const std::string& stage) {
             say({{"progress", fraction}, {"stage", stage}});
         });
         ContentSink sink(options.out);

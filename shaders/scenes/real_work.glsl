@@ -1,10 +1,6 @@
 // The scene's shading, RealWork of the SCCG 2010 paper, section 2.2. Set before: TEXTURED (0 or 1), MATH (0 or 1: every
 // sampled position is bent by trigonometric functions). A main() that uses real_work calls begin_fragment() first.
 
-in vec2 v_uv;
-in vec4 v_tint;
-flat in uint v_primitive;
-
 #if TEXTURED
 layout(binding = 0) uniform sampler2DArray u_textures;
 

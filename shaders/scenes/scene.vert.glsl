@@ -6,6 +6,7 @@ layout(location = 3) in uint a_primitive;
 
 uniform mat4 u_view_projection;
 
+out vec3 v_position;
 out vec2 v_uv;
 out vec4 v_tint;
 flat out uint v_primitive;
@@ -15,6 +16,7 @@ invariant gl_Position;
 
 void main() {
     gl_Position = u_view_projection * vec4(a_position, 1.0);
+    v_position = a_position;
     v_uv = a_uv;
     v_tint = a_tint;
     v_primitive = a_primitive;

@@ -25,9 +25,14 @@ Spec small_spec(const nlohmann::json& timing = {{"rounds", 3}}) {
 
 const ProgressFunction no_progress = [](double, const std::string&) {};
 
+Comparison compare_here(const Spec& spec, gl::Context& context, const ProgressFunction& progress) {
+    NoAssets assets;
+    return compare(spec, context, assets, progress);
+}
+
 TEST(Compare, GivesEveryMethodItsPictureTimesAndMetrics) {
     const auto context = make_context("egl");
-    const Comparison comparison = compare(small_spec(), *context, no_progress);
+    const Comparison comparison = compare_here(small_spec(), *context, no_progress);
     ASSERT_EQ(comparison.runs.size(), 1u);
     const sheer::Run& run = comparison.runs[0];
     EXPECT_EQ(run.reference_image.width_px, 48);
@@ -52,9 +57,9 @@ TEST(Compare, GivesEveryMethodItsPictureTimesAndMetrics) {
 
 TEST(Compare, IsRepeatable) {
     const auto context = make_context("egl");
-    const Comparison first = compare(small_spec(), *context, no_progress);
+    const Comparison first = compare_here(small_spec(), *context, no_progress);
     const auto other_context = make_context("egl");
-    const Comparison second = compare(small_spec(), *other_context, no_progress);
+    const Comparison second = compare_here(small_spec(), *other_context, no_progress);
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_EQ(first.runs[0].results[i].image.rgba, second.runs[0].results[i].image.rgba);
 }
@@ -62,7 +67,7 @@ TEST(Compare, IsRepeatable) {
 TEST(Compare, StopsTimingAfterItsTimeButNotBeforeOneRound) {
     const auto context = make_context("egl");
     const Comparison comparison =
-        compare(small_spec({{"rounds", 1000}, {"max_seconds", 0.001}}), *context, no_progress);
+        compare_here(small_spec({{"rounds", 1000}, {"max_seconds", 0.001}}), *context, no_progress);
     for (const MethodResult& result : comparison.runs[0].results) {
         EXPECT_GE(result.samples.size(), 1u);
         EXPECT_LT(result.samples.size(), 1000u);
@@ -73,7 +78,7 @@ TEST(Compare, ProgressGrowsAndNamesEachStage) {
     const auto context = make_context("egl");
     std::vector<double> fractions;
     std::set<std::string> stages;
-    compare(small_spec(), *context, [&](double fraction, const std::string& stage) {
+    compare_here(small_spec(), *context, [&](double fraction, const std::string& stage) {
         fractions.push_back(fraction);
         stages.insert(stage);
     });
@@ -89,8 +94,8 @@ TEST(Compare, CanBeCancelledBetweenRounds) {
     const ProgressFunction cancel = [](double, const std::string& stage) {
         if (stage == "timing round 2 of 3") throw Cancelled();
     };
-    EXPECT_THROW(compare(small_spec(), *context, cancel), Cancelled);
-    EXPECT_NO_THROW(compare(small_spec(), *context, no_progress)) << "the context is still of use";
+    EXPECT_THROW(compare_here(small_spec(), *context, cancel), Cancelled);
+    EXPECT_NO_THROW(compare_here(small_spec(), *context, no_progress)) << "the context is still of use";
 }
 
 /// A method that cannot run here is reported, and the others are compared all the same.
@@ -101,7 +106,7 @@ TEST(Compare, ReportsWhatIsUnsupported) {
                     {"image", {{"width", 2}, {"height", 1}}},
                     {"timing", {{"rounds", 1}}}});
     const auto context = make_context("egl");
-    const Comparison comparison = compare(spec, *context, no_progress);
+    const Comparison comparison = compare_here(spec, *context, no_progress);
     EXPECT_EQ(comparison.runs[0].results[0].status, "ok");
     EXPECT_EQ(comparison.runs[0].results[1].status, "unsupported");
     EXPECT_THAT(comparison.runs[0].results[1].reason, testing::HasSubstr("40000 fragments"));

@@ -30,7 +30,7 @@ class Stage {
     Stage(gl::Context& context, const Spec& spec, PixelFormat format)
         : m_context(context),
           m_timer(context),
-          m_scene(context.gl(), find_scene(spec.scene_type)->build(spec.scene, spec.image), spec.scene),
+          m_scene(context.gl(), build_geometry(spec.scene, spec.image, m_assets), spec.scene),
           m_target(context.gl(), spec.image, format) {}
 
     const Scene& scene() const { return m_scene; }
@@ -57,6 +57,7 @@ class Stage {
     }
 
   private:
+    NoAssets m_assets;
     gl::Context& m_context;
     gl::FrameTimer m_timer;
     Scene m_scene;

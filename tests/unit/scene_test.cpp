@@ -19,7 +19,8 @@ Geometry build_quads(const json& fields, int width_px = 512, int height_px = 512
     scene.update(fields);
     const Spec spec =
         parse_spec({{"scene", scene}, {"methods", {"b2f"}}, {"image", {{"width", width_px}, {"height", height_px}}}});
-    return find_scene("quads")->build(spec.scene, spec.image);
+    NoAssets assets;
+    return build_geometry(spec.scene, spec.image, assets);
 }
 
 /// Left, top, right, bottom in pixels from the top left.
@@ -169,7 +170,8 @@ TEST(TexturesByName, UnknownOnesThrow) {
 Geometry build_scene(const json& scene, int width_px = 64, int height_px = 64) {
     const Spec spec =
         parse_spec({{"scene", scene}, {"methods", {"b2f"}}, {"image", {{"width", width_px}, {"height", height_px}}}});
-    return find_scene(spec.scene_type)->build(spec.scene, spec.image);
+    NoAssets assets;
+    return build_geometry(spec.scene, spec.image, assets);
 }
 
 std::size_t transparent_count(const Geometry& geometry) {

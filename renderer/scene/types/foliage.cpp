@@ -107,7 +107,7 @@ Shade meadow(const std::vector<Tree>& trees) {
     };
 }
 
-Geometry build(const nlohmann::json& scene, const ImageSpec& image) {
+Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
     const auto tree_count = scene.at("trees").get<std::size_t>(),
                planes = scene.at("planes_per_tree").get<std::size_t>();

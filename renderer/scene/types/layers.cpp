@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t max_layers = 4096;
 
-Geometry build(const nlohmann::json& scene, const ImageSpec&) {
+Geometry build(const nlohmann::json& scene, const ImageSpec&, AssetReader&) {
     Geometry geometry;
     geometry.parallel = true;
     for (const auto& layer : scene.at("layers")) {

@@ -163,7 +163,7 @@ void add_fireplace(Geometry& geometry, bool fire, Random& random) {
     }
 }
 
-Geometry build(const nlohmann::json& scene, const ImageSpec& image) {
+Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
     const bool fire = scene.at("appearance").get<std::string>() == "fire";
     const auto count = scene.at("count").get<std::size_t>();

@@ -53,7 +53,7 @@ double place(const Distribution& distribution, double size, Random& random) {
     return std::clamp(centre - size / 2, 0.0, 1 - size);
 }
 
-Geometry build(const nlohmann::json& scene, const ImageSpec& image) {
+Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
     const auto name = scene.at("distribution").get<std::string>();
     const auto& distribution = *std::ranges::find(distributions(), name, &Distribution::name);
     const auto count = scene.at("count").get<std::size_t>();

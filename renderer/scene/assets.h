@@ -1,0 +1,42 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+#include "renderer/frame/image.h"
+
+namespace sheer {
+
+/// A picture from a file, for textures: straight alpha, rows from the top down.
+struct Picture {
+    Image image;
+    bool eight_bit = true;  ///< the file has 8 bits a channel, so that 8 bits keep all of it
+};
+
+/// A file is not what the spec says it is, or is not there; the text is meant for the caller and names no path of ours.
+class AssetError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Reads the files that a spec refers to. The core knows no file formats, so that a benchmark can do without them.
+///
+/// `name` is the text in the spec: the SHA-256 of an uploaded asset, or a path for `sheer compare`. All throw
+/// AssetError.
+class AssetReader {
+  public:
+    virtual ~AssetReader() = default;
+    /// Scaled to width x height by area-averaging or cubic interpolation, whatever its own shape.
+    virtual Picture picture(const std::string& name, int width_px, int height_px) = 0;
+};
+
+/// For where there are no files: everything is an AssetError.
+class NoAssets : public AssetReader {
+  public:
+    Picture picture(const std::string& name, int, int) override { refuse(name); }
+
+  private:
+    [[noreturn]] static void refuse(const std::string& name) {
+        throw AssetError("there are no assets here, so not \"" + name + "\" either");
+    }
+};
+
+}  // namespace sheer
