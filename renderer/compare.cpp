@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <tuple>
 
+#include "renderer/frame/needed.h"
 #include "renderer/frame/overdraw.h"
+#include "renderer/frame/shading_counter.h"
 #include "renderer/methods/method.h"
 #include "renderer/scene/random.h"
 
@@ -19,7 +23,8 @@ namespace {
 constexpr double max_peeled_fragments = 4e8;
 
 /// Fractions of the job at which each stage begins, for the progress bar.
-constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0.3, metrics_begin = 0.9;
+constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0.3, counting_begin = 0.8,
+                 metrics_begin = 0.9;
 
 /// The stages of one point; each fills in its part of the run.
 class Comparer {
@@ -30,20 +35,23 @@ class Comparer {
     Run run() {
         m_progress(0, "building the scene");
         const Geometry geometry = build_geometry(m_spec.scene, m_spec.image, m_assets);
-        const Scene scene(m_context.gl(), geometry, m_spec.scene);
+        Scene scene(m_context.gl(), geometry, m_spec.scene);
         Run run;
         render_reference(scene, run);
         const Target target(m_context.gl(), m_spec.image, m_spec.image.format);
         make_methods(scene, target, run);
-        time_methods();
+        time_methods(run);
+        count_fragments(scene, target, run);
+        m_contenders.clear();
         measure(run);
         return run;
     }
 
   private:
     struct Contender {
-        std::unique_ptr<Method> method;  ///< null where it is not supported
-        MethodResult* result;
+        std::unique_ptr<Method> method;
+        std::vector<gl::FrameSample>* samples;
+        MethodResult* result;  ///< null for the second instance of the baseline
     };
 
     gl::FrameSample render(Method& method, bool timed) {
@@ -77,9 +85,9 @@ class Comparer {
         run.reference_image = picture(m_spec.reference, scene, target);
 
         m_timer.begin_frame(false);
-        const Overdraw overdraw = count_overdraw(m_context.gl(), scene, target, m_timer);
+        run.overdraw = count_overdraw(m_context.gl(), scene, target, m_timer);
         m_timer.end_frame();
-        const double peeled = static_cast<double>(overdraw.total()) * (overdraw.greatest() + 1.0);
+        const double peeled = static_cast<double>(run.overdraw.total()) * (run.overdraw.greatest() + 1.0);
         if (peeled > max_peeled_fragments) {
             run.no_residual_reason = fmt::format("depth peeling would draw {:.3g} fragments; the limit is {:.3g}",
                                                  peeled, max_peeled_fragments);
@@ -94,7 +102,14 @@ class Comparer {
         run.residual = greatest;
     }
 
-    /// Renders each method until it is warm, and keeps its picture.
+    std::unique_ptr<Method> make_warm(const MethodSpec& spec, const Scene& scene, const Target& target) {
+        auto method = make_method(spec, scene, target);
+        for (int frame = 0; frame < m_spec.timing.warmup; ++frame) render(*method, false);
+        return method;
+    }
+
+    /// Renders each method until it is warm, and keeps its picture. The baseline is made twice: how far it is from
+    /// itself is the noise that every other difference is seen against.
     void make_methods(const Scene& scene, const Target& target, Run& run) {
         run.results.resize(m_spec.methods.size());
         for (std::size_t i = 0; i < run.results.size(); ++i) {
@@ -102,12 +117,13 @@ class Comparer {
             result.method = m_spec.methods[i];
             step(methods_begin, timing_begin, i, run.results.size(), "warming up " + result.method.label);
             try {
-                auto method = make_method(result.method, scene, target);
-                for (int frame = 0; frame < m_spec.timing.warmup; ++frame) render(*method, false);
+                auto method = make_warm(result.method, scene, target);
                 result.image = target.read();
                 result.memory_bytes = method->memory_bytes();
                 m_context.check("rendering " + result.method.label);
-                m_contenders.push_back({std::move(method), &result});
+                m_contenders.push_back({std::move(method), &result.samples, &result});
+                if (result.method.label == m_spec.baseline)
+                    m_contenders.push_back({make_warm(result.method, scene, target), &run.baseline_again, nullptr});
             } catch (const Unsupported& unsupported) {
                 result.status = "unsupported";
                 result.reason = unsupported.what();
@@ -116,25 +132,70 @@ class Comparer {
     }
 
     /// Rounds in which every method renders one frame, in an order that is drawn anew: neighbours in time share the
-    /// machine's mood, and no method always follows the same other one.
-    void time_methods() {
+    /// machine's mood, and no method always follows the same other one. No round is begun that would go over the time,
+    /// if it took as long as the longest yet.
+    void time_methods(Run& run) {
         using Clock = std::chrono::steady_clock;
         const auto begin = Clock::now();
+        double done_s = 0, longest_s = 0;
         Random random(1);
         std::vector<std::size_t> order(m_contenders.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         for (int round = 0; round < m_spec.timing.rounds; ++round) {
-            const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-            if (round > 0 && seconds > m_spec.timing.max_seconds) break;
-            step(timing_begin, metrics_begin, static_cast<std::size_t>(round),
+            if (round > 0 && done_s + longest_s > m_spec.timing.max_seconds) break;
+            step(timing_begin, counting_begin, static_cast<std::size_t>(round),
                  static_cast<std::size_t>(m_spec.timing.rounds),
                  fmt::format("timing round {} of {}", round + 1, m_spec.timing.rounds));
             for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-            for (const std::size_t i : order)
-                m_contenders[i].result->samples.push_back(render(*m_contenders[i].method, true));
+            for (const std::size_t i : order) m_contenders[i].samples->push_back(render(*m_contenders[i].method, true));
+            const double now_s = std::chrono::duration<double>(Clock::now() - begin).count();
+            longest_s = std::max(longest_s, now_s - done_s);
+            done_s = now_s;
+            run.rounds_done = round + 1;
         }
         m_context.check("timing");
-        m_contenders.clear();
+    }
+
+    void count_fragments(Scene& scene, const Target& target, Run& run) {
+        std::map<float, NeededFragments> needed;
+        for (std::size_t i = 0; i < m_contenders.size(); ++i) {
+            const Contender& contender = m_contenders[i];
+            if (!contender.result) continue;
+            const std::string& label = contender.result->method.label;
+            step(counting_begin, metrics_begin, i, m_contenders.size(), "counting the fragments of " + label);
+            FragmentCounts& fragments = contender.result->fragments;
+            std::tie(fragments.shaded, fragments.no_shaded_reason) = count_shaded(*contender.method, scene, target);
+            count_needed_by(contender.result->method, scene, target, run.overdraw, needed, fragments);
+            m_context.check("counting the fragments of " + label);
+        }
+    }
+
+    std::pair<std::optional<PixelCounts>, std::string> count_shaded(Method& method, Scene& scene,
+                                                                    const Target& target) {
+        const ShadingCounter counter(m_context.gl(), scene, target);
+        render(method, false);
+        auto [shaded, reason] = counter.read();
+        return {std::move(shaded), std::move(reason)};
+    }
+
+    /// `known` holds what has been counted already, by threshold.
+    void count_needed_by(const MethodSpec& method, const Scene& scene, const Target& target,
+                         const PixelCounts& overdraw, std::map<float, NeededFragments>& known,
+                         FragmentCounts& fragments) {
+        if (!method.parameters.contains("threshold")) {
+            fragments.needed = overdraw;
+            return;
+        }
+        fragments.no_needed_reason = why_needed_is_unknown(scene);
+        if (!fragments.no_needed_reason.empty()) return;
+        const auto threshold = method.parameters.at("threshold").get<float>();
+        if (!known.contains(threshold)) {
+            m_timer.begin_frame(false);
+            known[threshold] = count_needed(m_context.gl(), scene, target, threshold, m_timer);
+            m_timer.end_frame();
+        }
+        fragments.needed = known[threshold].needed;
+        fragments.saturation = known[threshold].saturation;
     }
 
     void measure(Run& run) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/frame/image.h"
+#include "renderer/frame/pixel_counts.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/timer.h"
 #include "renderer/metrics/metric.h"
@@ -14,6 +15,15 @@
 #include "renderer/spec/spec.h"
 
 namespace sheer {
+
+/// What a method shaded, and what it had to. Counted in frames of their own, none of which is timed.
+struct FragmentCounts {
+    std::optional<PixelCounts> shaded;  ///< calls of the scene's shading for transparent fragments
+    std::string no_shaded_reason;
+    std::optional<PixelCounts> needed;  ///< fragments before the transmittance is under the method's threshold
+    std::string no_needed_reason;
+    std::optional<PixelCounts> saturation;  ///< the fragment that saturated the pixel, from 1; methods with a threshold
+};
 
 /// What one method gave at one point.
 struct MethodResult {
@@ -25,6 +35,7 @@ struct MethodResult {
     std::optional<Metrics> metrics;        ///< absent where the method has none
     std::string no_metrics_reason;
     std::int64_t memory_bytes = 0;  ///< GL objects the method made for itself
+    FragmentCounts fragments;
 };
 
 /// One point of the sweep.
@@ -35,6 +46,10 @@ struct Run {
     std::optional<double> residual;  ///< greatest difference of the two references, in 0..1
     std::string no_residual_reason;
     std::vector<MethodResult> results;  ///< in the order of the spec's methods
+    PixelCounts overdraw;               ///< transparent fragments that opaque geometry does not hide
+    /// Frames of a second instance of the baseline, in the same rounds; none where the baseline cannot run.
+    std::vector<gl::FrameSample> baseline_again;
+    int rounds_done = 0;
 };
 
 struct Comparison {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 
@@ -85,6 +86,41 @@ GLenum depth_attachment(const Functions& gl, GLuint texture) {
     return depth_bits == 0 ? GL_STENCIL_ATTACHMENT : GL_DEPTH_STENCIL_ATTACHMENT;
 }
 
+/// Block members have no location and are passed over.
+void copy_uniform(const Functions& gl, GLuint from, GLuint to, const char* name, GLenum type) {
+    const GLint source = gl.GetUniformLocation(from, name), target = gl.GetUniformLocation(to, name);
+    if (source < 0 || target < 0) return;
+    std::array<GLfloat, 16> floats{};
+    GLint integer = 0;
+    switch (type) {
+        case GL_FLOAT:
+        case GL_FLOAT_VEC2:
+        case GL_FLOAT_VEC3:
+        case GL_FLOAT_VEC4:
+        case GL_FLOAT_MAT4:
+            gl.GetUniformfv(from, source, floats.data());
+            break;
+        default:  // samplers, of which there are many types, are integers
+            gl.GetUniformiv(from, source, &integer);
+    }
+    switch (type) {
+        case GL_FLOAT:
+            return gl.ProgramUniform1fv(to, target, 1, floats.data());
+        case GL_FLOAT_VEC2:
+            return gl.ProgramUniform2fv(to, target, 1, floats.data());
+        case GL_FLOAT_VEC3:
+            return gl.ProgramUniform3fv(to, target, 1, floats.data());
+        case GL_FLOAT_VEC4:
+            return gl.ProgramUniform4fv(to, target, 1, floats.data());
+        case GL_FLOAT_MAT4:
+            return gl.ProgramUniformMatrix4fv(to, target, 1, GL_FALSE, floats.data());
+        case GL_UNSIGNED_INT:
+            return gl.ProgramUniform1ui(to, target, static_cast<GLuint>(integer));
+        default:
+            return gl.ProgramUniform1i(to, target, integer);
+    }
+}
+
 }  // namespace
 
 Buffer make_buffer(const Functions& gl, std::string_view label, GLsizeiptr size_bytes, const void* data,
@@ -145,7 +181,7 @@ Query make_query(const Functions& gl, std::string_view label, GLenum target) {
 
 Program::Program(const Functions& gl, std::string_view label, std::string_view vertex_source,
                  std::string_view fragment_source)
-    : m_gl(&gl) {
+    : m_gl(&gl), m_vertex_source(vertex_source), m_fragment_source(fragment_source) {
     const Shader vertex = compile(gl, label, GL_VERTEX_SHADER, vertex_source);
     const Shader fragment = compile(gl, label, GL_FRAGMENT_SHADER, fragment_source);
     m_object = Object<ProgramKind>(gl, gl.CreateProgram(), label);
@@ -162,6 +198,23 @@ Program::Program(const Functions& gl, std::string_view label, std::string_view v
 
 void Program::use() const {
     m_gl->UseProgram(id());
+}
+
+Program Program::with_fragment_source(std::string_view label, std::string_view fragment_source) const {
+    return Program(*m_gl, label, m_vertex_source, fragment_source);
+}
+
+void Program::copy_uniforms(const Program& other) const {
+    GLint count = 0;
+    m_gl->GetProgramiv(other.id(), GL_ACTIVE_UNIFORMS, &count);
+    for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
+        std::array<GLchar, 256> name{};
+        GLint size = 0;
+        GLenum type = 0;
+        m_gl->GetActiveUniform(other.id(), index, static_cast<GLsizei>(name.size()), nullptr, &size, &type,
+                               name.data());
+        copy_uniform(*m_gl, other.id(), id(), name.data(), type);
+    }
 }
 
 // GL passes over location -1, which is what a uniform that the compiler removed has.

@@ -99,6 +99,12 @@ class Program {
     GLuint id() const { return m_object.id(); }
     void use() const;
 
+    const std::string& fragment_source() const { return m_fragment_source; }
+    /// A program with the same vertex stage. Throws RenderError like the constructor.
+    Program with_fragment_source(std::string_view label, std::string_view fragment_source) const;
+    /// Gives each uniform that both programs have the value that it has in `other`.
+    void copy_uniforms(const Program& other) const;
+
     /// Sets a uniform by name; one that the compiler removed is passed over.
     void set(const char* name, int value) const;
     void set(const char* name, unsigned value) const;
@@ -111,6 +117,7 @@ class Program {
   private:
     const Functions* m_gl = nullptr;
     Object<ProgramKind> m_object;
+    std::string m_vertex_source, m_fragment_source;
 };
 
 /// The text of a file below shaders/. Throws std::out_of_range naming the path if there is none.

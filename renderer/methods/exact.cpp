@@ -27,7 +27,7 @@ struct Tile {
 };
 
 /// Halves `tile` until the fragments of each part fit.
-void divide(const Overdraw& overdraw, Tile tile, std::uint64_t capacity, std::vector<Tile>& tiles) {
+void divide(const PixelCounts& overdraw, Tile tile, std::uint64_t capacity, std::vector<Tile>& tiles) {
     const std::uint64_t fragments = overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1);
     if (fragments == 0) return;
     if (fragments <= capacity) {
@@ -80,7 +80,7 @@ class LinkedLists : public Method {
 
     /// The scene does not change from frame to frame, so it is counted once.
     void prepare(gl::FrameTimer& timer) {
-        const Overdraw overdraw = count_overdraw(m_gl, m_scene, m_target, timer);
+        const PixelCounts overdraw = count_overdraw(m_gl, m_scene, m_target, timer);
         m_longest = overdraw.greatest();
         if (m_longest > loop_budget)
             throw Unsupported("one pixel has " + std::to_string(m_longest) + " fragments; a pass can sort " +

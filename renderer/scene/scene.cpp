@@ -140,7 +140,8 @@ void Scene::fill_textures(const Picture& picture) {
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
                                 const std::string& prolog) const {
-    const std::string fragment = glsl_version + prolog + m_shading_source + std::string(method_source);
+    const std::string fragment = glsl_version + prolog + m_shading_source +
+                                 std::string(gl::shader_file("scenes/count_shaded.glsl")) + std::string(method_source);
     return gl::Program(m_gl, label, gl::shader_file("scenes/scene.vert.glsl"), fragment);
 }
 
@@ -169,6 +170,14 @@ void Scene::draw_transparent(const gl::Program& program, Order order) const {
 }
 
 void Scene::draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) const {
+    if (m_observer) {
+        m_observer->draw_transparent(program, order, first, count);
+    } else {
+        draw_unobserved(program, order, first, count);
+    }
+}
+
+void Scene::draw_unobserved(const gl::Program& program, Order order, std::size_t first, std::size_t count) const {
     const DrawList& drawn = list(order);
     bind(program, drawn.indices);
     const std::size_t begin = drawn.first_index[first], end = drawn.first_index[first + count];

@@ -9,6 +9,14 @@ namespace sheer {
 
 enum class Order { submission, near_to_far, far_to_near };
 
+/// Stands between methods and the drawing of transparent primitives, for instance to count what they shade.
+class DrawObserver {
+  public:
+    virtual ~DrawObserver() = default;
+    /// Takes the place of Scene::draw_transparent; draws by Scene::draw_unobserved.
+    virtual void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) = 0;
+};
+
 /// A scene on the device: geometry in each order, textures, and the shading `real_work`.
 ///
 /// In every order, primitives of equal depth stand as if the later submitted one were nearer.
@@ -35,6 +43,10 @@ class Scene {
     /// `count` primitives from the `first` in this order.
     void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) const;
 
+    /// From now on `observer` draws the transparent primitives; null for the scene itself.
+    void observe(DrawObserver* observer) { m_observer = observer; }
+    void draw_unobserved(const gl::Program& program, Order order, std::size_t first, std::size_t count) const;
+
   private:
     struct DrawList {
         gl::Buffer indices;
@@ -48,6 +60,7 @@ class Scene {
     const DrawList& list(Order order) const { return m_lists[static_cast<std::size_t>(order)]; }
 
     const gl::Functions& m_gl;
+    DrawObserver* m_observer = nullptr;
     bool m_parallel;
     glm::mat4 m_view_projection;
     std::string m_shading_source;  ///< GLSL with inputs and real_work

@@ -37,7 +37,7 @@ TEST(References, ListsInTilesGiveTheSamePicture) {
     Stage stage(*context, spec, PixelFormat::rgba32f);
     gl::FrameTimer timer(*context);
     timer.begin_frame(false);
-    const Overdraw overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
+    const PixelCounts overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
     timer.end_frame();
     ASSERT_GT(overdraw.total(), 374490u);
     const auto small = stage.make(spec.methods[0]);
@@ -97,7 +97,7 @@ TEST(Overdraw, CountsVisibleFragments) {
     Stage stage(*context, spec, PixelFormat::rgba8);
     gl::FrameTimer timer(*context);
     timer.begin_frame(false);
-    const Overdraw overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
+    const PixelCounts overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
     timer.end_frame();
     const std::vector<std::uint32_t> expected = {2, 2, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     EXPECT_EQ(overdraw.counts, expected);

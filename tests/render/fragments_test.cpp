@@ -1,0 +1,220 @@
+// How many fragments each method shades, and how many it had to: held against a composite in double precision on the
+// CPU where the scene is `layers`, and against each other elsewhere.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "renderer/compare.h"
+#include "tests/render/compositor.h"
+#include "tests/render/render_test.h"
+
+namespace sheer::test {
+
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr int size_px = 16;
+
+/// An opaque rectangle in the middle of a stack of eight, of which each is smaller than the one behind it; in reverse.
+json stack_of_layers(double alpha) {
+    json layers = json::array();
+    for (int i = 0; i < 8; ++i) {
+        const double edge = i / 20.0;
+        layers.push_back({{"rect", {edge, edge, 1, 1}},
+                          {"depth", 0.9 - 0.1 * i},
+                          {"color", {0.1 * i, 0.5, 1 - 0.1 * i}},
+                          {"alpha", alpha},
+                          {"opaque", false}});
+    }
+    layers.push_back(
+        {{"rect", {0.5, 0, 1, 0.5}}, {"depth", 0.55}, {"color", {1, 1, 1}}, {"alpha", 1}, {"opaque", true}});
+    return {{"type", "layers"}, {"layers", layers}};
+}
+
+json quads(int count) {
+    return {{"type", "quads"},
+            {"count", count},
+            {"shading", "4x4-textures"},
+            {"texture", {{"image", "leaf"}, {"size", 64}}}};
+}
+
+sheer::Run run_of(const json& scene, const json& methods, const std::string& format = "rgba8", int width_px = size_px) {
+    const Spec spec = parse_spec({{"scene", scene},
+                                  {"methods", methods},
+                                  {"image", {{"width", width_px}, {"height", size_px}, {"format", format}}},
+                                  {"timing", {{"rounds", 1}}}});
+    const auto context = make_context("egl");
+    NoAssets assets;
+    Comparison comparison = compare(spec, *context, assets, [](double, const std::string&) {});
+    return std::move(comparison.runs[0]);
+}
+
+/// A number for each pixel, from its fragments sorted from near to far.
+PixelCounts on_the_cpu(const json& scene,
+                       const std::function<std::uint32_t(const std::vector<Compositor::Fragment>&)>& f) {
+    const Compositor compositor(scene, size_px, {0, 0, 0});
+    PixelCounts counts{size_px, size_px, {}};
+    for (int y = 0; y < size_px; ++y) {
+        for (int x = 0; x < size_px; ++x) {
+            auto fragments = compositor.stack(x, y).fragments;
+            std::ranges::stable_sort(fragments, std::less(), &Compositor::Fragment::depth);
+            counts.counts.push_back(f(fragments));
+        }
+    }
+    return counts;
+}
+
+PixelCounts needed_on_the_cpu(const json& scene, double threshold) {
+    return on_the_cpu(scene, [=](const auto& fragments) {
+        double transmittance = 1;
+        std::uint32_t needed = 0;
+        for (const auto& fragment : fragments) {
+            if (transmittance < threshold) break;
+            ++needed;
+            transmittance *= 1 - fragment.alpha;
+        }
+        return needed;
+    });
+}
+
+/// With alpha 0.5 the transmittances are 1/2, 1/4, ..., which no threshold here is near.
+TEST(Fragments, NeededIsThatOfACompositeOnTheCpu) {
+    const json scene = stack_of_layers(0.5);
+    for (const std::string format : {"rgba8", "rgba16f", "rgba32f"}) {
+        for (const double threshold : {0.0, 0.01, 0.1, 0.3, 1.0}) {
+            SCOPED_TRACE(format + ", threshold " + std::to_string(threshold));
+            const json f2bd = {{"id", "f2bd"}, {"threshold", threshold}};
+            const sheer::Run run = run_of(scene, {"f2b", f2bd}, format);
+            const FragmentCounts& fragments = run.results[1].fragments;
+            const PixelCounts expected = needed_on_the_cpu(scene, threshold);
+            ASSERT_TRUE(fragments.needed && fragments.shaded && fragments.saturation);
+            EXPECT_EQ(fragments.needed->counts, expected.counts);
+            EXPECT_EQ(fragments.shaded->counts, expected.counts);
+        }
+    }
+}
+
+TEST(Fragments, SaturationLayerIsTheOneThatFallsBelowTheThreshold) {
+    const json scene = stack_of_layers(0.5);
+    const sheer::Run run = run_of(scene, {"f2b", {{"id", "f2bd"}, {"threshold", 0.1}}});
+    // 0.5^4 = 0.0625 is the first under 0.1.
+    const PixelCounts expected =
+        on_the_cpu(scene, [](const auto& fragments) { return fragments.size() >= 4 ? 4u : 0u; });
+    EXPECT_EQ(run.results[1].fragments.saturation->counts, expected.counts);
+    EXPECT_GT(expected.total(), 0u);
+    EXPECT_EQ(run.results[0].fragments.saturation, std::nullopt) << "f2b has no threshold";
+}
+
+/// One full frame of f2b shades what is submitted; so does every other method that shades each fragment once.
+TEST(Fragments, MethodsThatNeverDiscardShadeAllThatIsSubmitted) {
+    const json scene = stack_of_layers(0.5);
+    const sheer::Run run = run_of(
+        scene, {"b2f", "f2b", "unsorted", {{"id", "exact"}, {"form", "lists"}}, {{"id", "f2bd"}, {"threshold", 0}}});
+    const PixelCounts submitted = on_the_cpu(scene, [](const auto& f) { return std::uint32_t(f.size()); });
+    EXPECT_EQ(run.overdraw.counts, submitted.counts);
+    for (const MethodResult& result : run.results) {
+        SCOPED_TRACE(result.method.id);
+        ASSERT_TRUE(result.fragments.shaded) << result.fragments.no_shaded_reason;
+        EXPECT_EQ(result.fragments.shaded->counts, submitted.counts);
+        EXPECT_EQ(result.fragments.needed->counts, submitted.counts);
+    }
+}
+
+TEST(Fragments, F2bdShadesWhatIsNeededOfQuads) {
+    for (const std::string format : {"rgba8", "rgba16f", "rgba32f"}) {
+        SCOPED_TRACE(format);
+        const sheer::Run run = run_of(
+            quads(200), {"f2b", "f2bd", {{"id", "f2bd"}, {"threshold", 0.2}, {"label", "much"}}, "f2bx"}, format, 40);
+        const auto& f2b = run.results[0].fragments;
+        EXPECT_EQ(f2b.shaded->counts, run.overdraw.counts);
+        for (const std::size_t i : {1u, 2u}) {
+            const FragmentCounts& fragments = run.results[i].fragments;
+            EXPECT_EQ(fragments.shaded->counts, fragments.needed->counts) << run.results[i].method.label;
+            EXPECT_LT(fragments.needed->total(), run.overdraw.total());
+        }
+        EXPECT_LT(run.results[2].fragments.needed->total(), run.results[1].fragments.needed->total());
+        EXPECT_EQ(run.results[3].fragments.shaded->total(), 0u) << "f2bx shades nothing";
+    }
+}
+
+/// `layers` from far to near or from near to far: what the alpha test shades is what its own depth test lets through.
+TEST(Fragments, AnAlphaTestIsCountedAsItsDepthTestGoes) {
+    const json far_to_near = stack_of_layers(0.6);
+    json near_to_far = far_to_near;
+    std::ranges::reverse(near_to_far["layers"]);
+    const PixelCounts submitted = on_the_cpu(far_to_near, [](const auto& f) { return std::uint32_t(f.size()); });
+    const PixelCounts covered = on_the_cpu(far_to_near, [](const auto& f) { return f.empty() ? 0u : 1u; });
+    const json passes = {{{"id", "alpha_test"}, {"reference", 0.5}}},
+               fails = {{{"id", "alpha_test"}, {"reference", 0.9}}};
+    EXPECT_EQ(run_of(far_to_near, passes).results[0].fragments.shaded->counts, submitted.counts);
+    EXPECT_EQ(run_of(near_to_far, passes).results[0].fragments.shaded->counts, covered.counts);
+    EXPECT_EQ(run_of(near_to_far, fails).results[0].fragments.shaded->counts, submitted.counts)
+        << "no depth is written";
+}
+
+/// The cap is four fragments; those under min_alpha are shaded before they are dropped, and use up none of the four.
+TEST(Fragments, AStencilCapIsCountedAsItsStencilGoes) {
+    const json scene = stack_of_layers(0.5);
+    const auto shaded = [&](double min_alpha) {
+        const json cap = {{"id", "stencil_cap"}, {"layers", 4}, {"min_alpha", min_alpha}, {"frames", 3}};
+        return run_of(scene, json::array({cap})).results[0].fragments.shaded->counts;
+    };
+    const auto capped =
+        on_the_cpu(scene, [](const auto& f) { return std::uint32_t(std::min<std::size_t>(f.size(), 4)); });
+    const auto all = on_the_cpu(scene, [](const auto& f) { return std::uint32_t(f.size()); });
+    EXPECT_EQ(shaded(0), capped.counts);
+    EXPECT_EQ(shaded(0.1), capped.counts);
+    EXPECT_EQ(shaded(0.9), all.counts);
+}
+
+/// shader_depth decides by its own texture read what the opaque pass hides, and shades all the rest.
+TEST(Fragments, AMethodThatWritesDepthIsCounted) {
+    const json scene = stack_of_layers(0.5);
+    const sheer::Run run = run_of(scene, {{{"id", "opaque_depth"}, {"variant", "shader_depth"}},
+                                          {{"id", "opaque_depth"}, {"variant", "two_pass"}}});
+    EXPECT_EQ(run.results[0].fragments.shaded->counts, run.overdraw.counts);
+    // Twice each: once to find that it is not opaque, once to blend it.
+    EXPECT_EQ(run.results[1].fragments.shaded->total(), 2 * run.overdraw.total());
+}
+
+TEST(Fragments, WhatCannotBeToldHasAReason) {
+    const sheer::Run peeled = run_of(stack_of_layers(0.5), {"depth_peeling"});
+    EXPECT_EQ(peeled.results[0].fragments.shaded, std::nullopt);
+    EXPECT_THAT(peeled.results[0].fragments.no_shaded_reason, HasSubstr("samples pass"));
+    EXPECT_EQ(peeled.results[0].status, "ok");
+
+    const sheer::Run foliage = run_of({{"type", "foliage"}, {"trees", 1}}, {"f2bd"});
+    EXPECT_TRUE(foliage.results[0].fragments.shaded.has_value());
+    EXPECT_EQ(foliage.results[0].fragments.needed, std::nullopt);
+    EXPECT_THAT(foliage.results[0].fragments.no_needed_reason, HasSubstr("intersect"));
+}
+
+/// The counting must not be seen in the picture, so every method is asked, and its picture compared with an uncounted.
+TEST(Fragments, EveryMethodCanBeCounted) {
+    json methods = json::array();
+    for (const MethodInfo& method : all_methods()) methods.push_back(method.id);
+    const sheer::Run run = run_of(quads(20), methods, "rgba8", 24);
+    for (const MethodResult& result : run.results) {
+        SCOPED_TRACE(result.method.id);
+        if (result.status != "ok") continue;
+        EXPECT_NE(result.fragments.shaded.has_value(), !result.fragments.no_shaded_reason.empty());
+        EXPECT_TRUE(result.fragments.needed.has_value());
+        if (!result.fragments.shaded) continue;
+        EXPECT_EQ(result.fragments.shaded->total() == 0, result.method.id == "f2bx");
+    }
+}
+
+TEST(CountPicture, GoesFromBlackToPaleYellow) {
+    const Image8 picture = count_picture({3, 1, {0, 10, 20}}, 10);
+    EXPECT_THAT(picture.rgb, testing::ElementsAre(0, 0, 4, 252, 253, 191, 252, 253, 191));
+    EXPECT_EQ(count_picture({1, 1, {0}}, 0).rgb, (std::vector<std::uint8_t>{0, 0, 4})) << "nothing was counted";
+}
+
+}  // namespace
+
+}  // namespace sheer::test
