@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "renderer/report/picture_file.h"
-#include "renderer/report/statistics.h"
+#include "renderer/report/timing.h"
 #include "version.h"
 
 namespace sheer {
@@ -21,10 +21,6 @@ namespace sheer {
 using nlohmann::json;
 
 namespace {
-
-json pair_json(const std::optional<std::pair<double, double>>& interval) {
-    return interval ? json{interval->first, interval->second} : json();
-}
 
 std::string cpu_name() {
     std::ifstream file("/proc/cpuinfo");
@@ -44,7 +40,7 @@ std::string file_name(const std::string& label) {
 class ReportMaker {
   public:
     ReportMaker(const Spec& spec, const Comparison& comparison, BlobSink& sink)
-        : m_spec(spec), m_comparison(comparison), m_sink(sink) {}
+        : m_spec(spec), m_comparison(comparison), m_sink(sink), m_timings(comparison, spec.baseline) {}
 
     json make(const std::string& created_at) {
         json report = {{"status", "done"},          {"progress", 1.0},
@@ -92,13 +88,16 @@ class ReportMaker {
         json results = json::array();
         for (std::size_t i = 0; i < run.results.size(); ++i) {
             const MethodResult& result = run.results[i];
-            results.push_back(result_json(result, fmt::format("{}-{}", i + 1, result.method.label)));
+            results.push_back(result_json(run, result, fmt::format("{}-{}", i + 1, result.method.label)));
         }
-        for (std::size_t i = 0; i < run.results.size(); ++i) results[i]["speedup"] = speedup(run, run.results[i]);
-        return {{"point", run.point}, {"reference", reference}, {"results", results}};
+        return {{"point", run.point},
+                {"reference", reference},
+                {"rounds", {{"asked", m_spec.timing.rounds}, {"done", run.rounds_done}}},
+                {"noise_floor", m_timings.noise(run)},
+                {"results", results}};
     }
 
-    json result_json(const MethodResult& result, const std::string& name) const {
+    json result_json(const Run& run, const MethodResult& result, const std::string& name) const {
         json object = {{"method", result.method.id},
                        {"label", result.method.label},
                        {"parameters", result.method.parameters},
@@ -106,11 +105,15 @@ class ReportMaker {
                        {"reason", result.reason.empty() ? json() : json(result.reason)},
                        {"images", json::object()},
                        {"timing", nullptr},
+                       {"speedup", m_timings.speedup(run, result)},
+                       {"fragments", nullptr},
                        {"metrics", nullptr},
                        {"memory_bytes", nullptr}};
         if (result.status != "ok") return object;
         object["images"] = pictures(result.image, name, m_spec.image.format != PixelFormat::rgba8);
-        object["timing"] = timing(result.samples);
+        object["images"].update(count_pictures(run, result, name));
+        object["timing"] = m_timings.timing(result.samples);
+        object["fragments"] = fragments(run, result);
         object["memory_bytes"] = result.memory_bytes;
         if (result.metrics) {
             object["metrics"] = result.metrics->values;
@@ -123,104 +126,75 @@ class ReportMaker {
         return object;
     }
 
-    static bool gpu_clock_holds(const std::vector<gl::FrameSample>& samples) {
-        return std::ranges::all_of(samples, &gl::FrameSample::valid);
-    }
-
-    /// The GPU's clock leaves out what the CPU does between draws; a software rasteriser is the CPU, so there, and
-    /// wherever the two clocks disagree, the fenced wall clock is what counts.
-    bool use_gpu_clock() const {
-        if (m_comparison.device.software) return false;
-        for (const Run& run : m_comparison.runs)
-            for (const MethodResult& result : run.results)
-                if (!gpu_clock_holds(result.samples)) return false;
-        return true;
-    }
-
-    std::vector<double> times(const std::vector<gl::FrameSample>& samples) const {
-        const bool gpu = use_gpu_clock();
-        std::vector<double> all;
-        for (const gl::FrameSample& sample : samples) all.push_back(gpu ? sample.gpu_ms : sample.wall_ms);
-        return all;
-    }
-
-    static double phase_median(const std::vector<gl::FrameSample>& samples, gl::Phase phase) {
-        std::vector<double> sums;
-        for (const gl::FrameSample& sample : samples) {
-            double sum = 0;
-            for (const gl::PassSample& pass : sample.passes)
-                if (pass.phase == phase) sum += pass.gpu_ms;
-            sums.push_back(sum);
+    /// The ideal time, that of f2b for the fragments that are needed, over the method's own.
+    json efficiency(const Run& run, const MethodResult& result, std::string& reason) const {
+        const auto f2b = std::ranges::find_if(
+            run.results, [](const MethodResult& other) { return other.method.id == "f2b" && other.status == "ok"; });
+        const double own_ms = m_timings.median_ms(result);
+        if (f2b == run.results.end()) {
+            reason = "f2b is not among the methods that ran";
+        } else if (!result.fragments.needed) {
+            reason = result.fragments.no_needed_reason;
+        } else if (run.overdraw.total() == 0) {
+            reason = "no fragment is submitted";
+        } else if (own_ms <= 0) {
+            reason = "the method took no time";
+        } else {
+            return m_timings.median_ms(*f2b) * static_cast<double>(result.fragments.needed->total()) /
+                   static_cast<double>(run.overdraw.total()) / own_ms;
         }
-        return median(sums);
+        return nullptr;
     }
 
-    /// Times of passes that bear the same name, such as the tiles of a reference, are added up.
-    static json passes(const std::vector<gl::FrameSample>& samples) {
-        json all = json::array();
-        std::vector<std::string> names;
-        for (const gl::PassSample& pass : samples.front().passes)
-            if (std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
-        for (const std::string& name : names) {
-            std::vector<double> sums;
-            for (const gl::FrameSample& sample : samples) {
-                double sum = 0;
-                for (const gl::PassSample& pass : sample.passes)
-                    if (pass.name == name) sum += pass.gpu_ms;
-                sums.push_back(sum);
+    json fragments(const Run& run, const MethodResult& result) const {
+        std::string reason;
+        json object = {{"submitted", run.overdraw.total()},
+                       {"shaded", nullptr},
+                       {"needed", nullptr},
+                       {"efficiency", efficiency(run, result, reason)}};
+        if (!reason.empty()) object["efficiency_reason"] = reason;
+        const auto set = [&](const std::string& key, const std::optional<PixelCounts>& counts,
+                             const std::string& why_not) {
+            if (counts) {
+                object[key] = counts->total();
+            } else {
+                object[key + "_reason"] = why_not;
             }
-            all.push_back({{"name", name}, {"median", median(sums)}});
-        }
-        return all;
+        };
+        set("shaded", result.fragments.shaded, result.fragments.no_shaded_reason);
+        set("needed", result.fragments.needed, result.fragments.no_needed_reason);
+        return object;
     }
 
-    json timing(const std::vector<gl::FrameSample>& samples) const {
-        const std::vector<double> chosen = times(samples);
-        const Summary summary = summarize(chosen);
-        std::vector<double> gpu, wall;
-        std::size_t disagreeing = 0;
-        for (const gl::FrameSample& sample : samples) {
-            gpu.push_back(sample.gpu_ms);
-            wall.push_back(sample.wall_ms);
-            disagreeing += sample.valid ? 0 : 1;
-        }
-        return {{"unit", "ms"},
-                {"clock", use_gpu_clock() ? "gpu" : "wall"},
-                {"samples", chosen},
-                {"median", summary.median},
-                {"mad", summary.mad},
-                {"min", summary.min},
-                {"p95", summary.p95},
-                {"ci95", pair_json(summary.ci95)},
-                {"initialization", phase_median(samples, gl::Phase::initialization)},
-                {"finalization", phase_median(samples, gl::Phase::finalization)},
-                {"passes", passes(samples)},
-                {"gpu_samples", gpu},
-                {"wall_samples", wall},
-                {"disagreeing_samples", disagreeing}};
+    /// All of a run share one scale, so that equal colours are equal numbers from picture to picture.
+    static std::uint32_t count_scale(const Run& run) {
+        std::uint32_t scale = run.overdraw.greatest();
+        for (const MethodResult& result : run.results)
+            if (result.fragments.shaded) scale = std::max(scale, result.fragments.shaded->greatest());
+        return scale;
     }
 
-    /// Time of the baseline over time of the method, round by round; the rounds are what is paired.
-    json speedup(const Run& run, const MethodResult& result) const {
-        const auto baseline = std::ranges::find_if(
-            run.results, [&](const MethodResult& other) { return other.method.label == m_spec.baseline; });
-        if (result.status != "ok" || baseline->status != "ok") return nullptr;
-        const std::vector<double> ours = times(result.samples), theirs = times(baseline->samples);
-        std::vector<double> ratios;
-        for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i)
-            if (ours[i] > 0) ratios.push_back(theirs[i] / ours[i]);
-        if (ratios.empty()) return nullptr;
-        const auto interval = median_interval(ratios, 0.05);
-        std::string resolved = "not resolved";
-        if (interval && interval->first > 1) resolved = "faster";
-        if (interval && interval->second < 1) resolved = "slower";
-        return {{"value", median(ratios)}, {"ci95", pair_json(interval)}, {"verdict", resolved}};
+    json count_pictures(const Run& run, const MethodResult& result, const std::string& name) const {
+        const std::uint32_t scale = count_scale(run);
+        json images = json::object();
+        const auto add = [&](const std::string& key, const PixelCounts& counts) {
+            images[key] = put(encode_png(count_picture(counts, scale)), fmt::format("{}.{}.png", file_name(name), key),
+                              "image/png");
+            images[key]["greatest"] = counts.greatest();
+            images[key]["full_scale"] = scale;
+        };
+        if (!run.overdraw.counts.empty()) add("overdraw", run.overdraw);
+        if (result.fragments.shaded) add("shaded", *result.fragments.shaded);
+        if (result.fragments.saturation) add("saturation", *result.fragments.saturation);
+        return images;
     }
 
     /// The number that a check names, or null.
     static json measured(const json& result, const std::string& metric) {
         if (metric == "speedup") return result["speedup"].is_null() ? json() : result["speedup"]["value"];
-        json value = metric.starts_with("timing.") ? result : result["metrics"];
+        const bool of_the_result =
+            metric.starts_with("timing.") || metric.starts_with("fragments.") || metric == "memory_bytes";
+        json value = of_the_result ? result : result["metrics"];
         for (std::size_t begin = 0; begin <= metric.size() && !value.is_null();) {
             const std::size_t end = std::min(metric.find('.', begin), metric.size());
             value = value.is_object() ? value.value(metric.substr(begin, end - begin), json()) : json();
@@ -263,6 +237,7 @@ class ReportMaker {
     const Spec& m_spec;
     const Comparison& m_comparison;
     BlobSink& m_sink;
+    Timings m_timings;
 };
 
 void write_file(const std::filesystem::path& path, const std::string& bytes) {

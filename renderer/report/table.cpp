@@ -20,22 +20,35 @@ std::string number(const json& value, const char* path, const char* format) {
     return fmt::format(fmt::runtime(format), value[pointer].get<double>());
 }
 
-std::string interval(const json& result) {
-    const json& speedup = result["speedup"];
-    if (speedup.is_null()) return "-";
-    if (speedup["ci95"].is_null()) return fmt::format("{:.2f}x", speedup["value"].get<double>());
-    return fmt::format("{:.2f}x [{:.2f}, {:.2f}]", speedup["value"].get<double>(), speedup["ci95"][0].get<double>(),
-                       speedup["ci95"][1].get<double>());
+/// A ratio of times with its interval.
+std::string interval(const json& ratio) {
+    if (ratio.is_null()) return "-";
+    if (ratio["ci95"].is_null()) return fmt::format("{:.2f}x", ratio["value"].get<double>());
+    return fmt::format("{:.2f}x [{:.2f}, {:.2f}]", ratio["value"].get<double>(), ratio["ci95"][0].get<double>(),
+                       ratio["ci95"][1].get<double>());
+}
+
+std::string verdict(const json& speedup) {
+    return speedup.is_null() ? "-" : speedup["verdict"].get<std::string>();
+}
+
+std::string outlier_count(const json& timing) {
+    return timing.is_null() ? "-" : std::to_string(timing["outliers"].size());
+}
+
+Row no_result(const json& result) {
+    return {result["label"], result["status"].get<std::string>() + ": " + result["reason"].get<std::string>()};
 }
 
 Row row(const json& result) {
-    if (result["status"] != "ok")
-        return {result["label"], result["status"].get<std::string>() + ": " + result["reason"].get<std::string>()};
+    if (result["status"] != "ok") return no_result(result);
     return {result["label"],
             number(result, "/timing/median", "{:.2f}"),
             number(result, "/timing/mad", "{:.2f}"),
             number(result, "/timing/p95", "{:.2f}"),
-            interval(result),
+            outlier_count(result["timing"]),
+            interval(result["speedup"]),
+            verdict(result["speedup"]),
             number(result, "/metrics/signed/mean_abs", "{:.3f}"),
             number(result, "/metrics/signed/min", "{:.0f}"),
             number(result, "/metrics/signed/max", "{:.0f}"),
@@ -43,6 +56,13 @@ Row row(const json& result) {
             number(result, "/metrics/ssim", "{:.4f}"),
             number(result, "/metrics/flip/mean", "{:.4f}"),
             number(result, "/metrics/differing_pixels", "{:.0f}")};
+}
+
+Row fragment_row(const json& result) {
+    if (result["status"] != "ok") return no_result(result);
+    return {result["label"], number(result, "/fragments/submitted", "{:.0f}"),
+            number(result, "/fragments/shaded", "{:.0f}"), number(result, "/fragments/needed", "{:.0f}"),
+            number(result, "/fragments/efficiency", "{:.2f}")};
 }
 
 /// Text to the left, numbers to the right; a short row is a message after its label.
@@ -63,26 +83,49 @@ std::string aligned(const std::vector<Row>& rows) {
     return text;
 }
 
+std::string fragment_table(const json& run) {
+    std::vector<Row> rows = {{"method", "submitted", "shaded", "needed", "efficiency"}};
+    for (const json& result : run["results"]) rows.push_back(fragment_row(result));
+    return aligned(rows);
+}
+
+std::string time_table(const json& run) {
+    std::vector<Row> rows = {{"method", "median ms", "MAD", "p95", "outliers", "speedup [95 %]", "verdict", "mean |d|",
+                              "min d", "max d", "PSNR dB", "SSIM", "FLIP", "differing px"}};
+    for (const json& result : run["results"]) rows.push_back(row(result));
+    return aligned(rows);
+}
+
+/// What the columns mean, and how far the times can be trusted.
+std::string notes(const json& run, const std::string& baseline) {
+    std::string text =
+        fmt::format("d: {} minus method, in 8-bit levels.", run["reference"]["method"].get<std::string>());
+    const json& residual = run["reference"]["residual"]["depth_peeling"];
+    if (residual.is_number()) text += fmt::format(" Residual to depth peeling {:.2g}.", residual.get<double>());
+    const int done = run["rounds"]["done"], asked = run["rounds"]["asked"];
+    text += fmt::format("\nSpeedup over {}, {} of {} rounds{}.", baseline, done, asked,
+                        done < asked ? ", ended by max_seconds" : "");
+    if (!run["noise_floor"].is_null())
+        text += fmt::format(" Noise floor, {} against itself: {}.", baseline, interval(run["noise_floor"]));
+    return text + "\n";
+}
+
 }  // namespace
 
 std::string report_table(const json& report) {
     const json& device = report["device"];
     std::string text = fmt::format("{}, OpenGL {} ({})\n", device["renderer"].get<std::string>(),
                                    device["gl_version"].get<std::string>(), device["context"].get<std::string>());
-    if (device["software"].get<bool>()) text += "Times on a software rasteriser do not predict those on a GPU.\n";
+    const bool software = device["software"].get<bool>();
+    if (software)
+        text += "Times on a software rasteriser do not predict those on a GPU; counts of fragments come nearer.\n";
     for (const json& run : report["runs"]) {
         text += "\n";
         if (!run["point"].empty()) text += run["point"].dump() + "\n";
-        std::vector<Row> rows = {{"method", "median ms", "MAD", "p95", "speedup [95 %]", "mean |d|", "min d", "max d",
-                                  "PSNR dB", "SSIM", "FLIP", "differing px"}};
-        for (const json& result : run["results"]) rows.push_back(row(result));
-        text += aligned(rows);
-        const json& residual = run["reference"]["residual"]["depth_peeling"];
-        text +=
-            fmt::format("\nd: {} minus method, in 8-bit levels. Speedup over {}.",
-                        run["reference"]["method"].get<std::string>(), report["spec"]["baseline"].get<std::string>());
-        if (residual.is_number()) text += fmt::format(" Residual to depth peeling {:.2g}.", residual.get<double>());
+        const std::string fragments = fragment_table(run), times = time_table(run);
+        text += software ? fragments + "\n" + times : times + "\n" + fragments;
         text += "\n";
+        text += notes(run, report["spec"]["baseline"]);
     }
     for (const json& check : report["checks"]) {
         text +=

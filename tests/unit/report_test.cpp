@@ -66,6 +66,10 @@ struct ReportFixture : testing::Test {
         run.reference_image = Image(4, 2);
         run.no_residual_reason = "too many";
         run.results.resize(3);
+        // 80 fragments, 10 to a pixel; f2bd needs and shades 2 to a pixel.
+        run.overdraw = {4, 2, std::vector<std::uint32_t>(8, 10)};
+        run.rounds_done = 6;
+        for (int round = 1; round <= 6; ++round) run.baseline_again.push_back(sample(10.5 * round, 9.45 * round));
         for (std::size_t i = 0; i < 3; ++i) {
             MethodResult& result = run.results[i];
             result.method = spec.methods[i];
@@ -77,6 +81,9 @@ struct ReportFixture : testing::Test {
         run.results[1].image.pixel(2, 1)[1] = 0.2f;
         for (std::size_t i = 0; i < 2; ++i)
             run.results[i].metrics = compute_metrics(run.reference_image, run.results[i].image);
+        run.results[0].fragments = {run.overdraw, "", run.overdraw, "", {}};
+        const PixelCounts two{4, 2, std::vector<std::uint32_t>(8, 2)};
+        run.results[1].fragments = {two, "", two, "", two};
         run.results[2].status = "unsupported";
         run.results[2].reason = "no <barrier>";
         comparison.runs.push_back(std::move(run));
@@ -97,8 +104,98 @@ TEST_F(ReportFixture, TimesAndSpeedupsAreThoseOfTheSamples) {
     EXPECT_EQ(b2f["timing"]["finalization"], 2);
     EXPECT_EQ(b2f["timing"]["passes"][1]["median"], 9 * 3.5 - 3);
     EXPECT_EQ(f2bd["timing"]["median"], 17.5);
-    EXPECT_EQ(b2f["speedup"], json({{"value", 1.0}, {"ci95", {1.0, 1.0}}, {"verdict", "not resolved"}}));
-    EXPECT_EQ(f2bd["speedup"], json({{"value", 2.0}, {"ci95", {2.0, 2.0}}, {"verdict", "faster"}}));
+    EXPECT_EQ(b2f["speedup"], json({{"value", 1.0},
+                                    {"ci95", {1.0, 1.0}},
+                                    {"verdict", "not resolved"},
+                                    {"reason", "it is the baseline"},
+                                    {"compared", 1}}));
+    EXPECT_EQ(
+        f2bd["speedup"],
+        json({{"value", 2.0}, {"ci95", {2.0, 2.0}}, {"verdict", "faster"}, {"reason", nullptr}, {"compared", 1}}));
+}
+
+TEST_F(ReportFixture, TheBaselineIsHeldAgainstItself) {
+    const json run = report()["runs"][0];
+    EXPECT_EQ(run["rounds"], json({{"asked", 10}, {"done", 6}}));
+    EXPECT_EQ(run["noise_floor"]["method"], "b2f");
+    EXPECT_EQ(run["noise_floor"]["samples"], json({10.5, 21.0, 31.5, 42.0, 52.5, 63.0}));
+    EXPECT_NEAR(run["noise_floor"]["value"].get<double>(), 1 / 1.05, 1e-9);
+    EXPECT_NEAR(run["noise_floor"]["factor"].get<double>(), 1.05, 1e-9);
+
+    // Were the second instance 2.5 times as slow, twice as fast would be no news.
+    for (gl::FrameSample& frame : comparison.runs[0].baseline_again) frame.wall_ms *= 2.5;
+    const json speedup = report()["runs"][0]["results"][1]["speedup"];
+    EXPECT_EQ(speedup["verdict"], "not resolved");
+    EXPECT_EQ(speedup["reason"], "inside the noise floor");
+
+    comparison.runs[0].results[0].status = "unsupported";
+    comparison.runs[0].baseline_again.clear();
+    EXPECT_TRUE(report()["runs"][0]["noise_floor"].is_null());
+    EXPECT_TRUE(report()["runs"][0]["results"][1]["speedup"].is_null());
+}
+
+TEST_F(ReportFixture, IntervalsAreCorrectedForTheNumberOfMethods) {
+    // Two methods that ran beside the baseline allow 2.5 % each; of six rounds 3.1 % lie outside the whole range.
+    comparison.runs[0].results[2].status = "ok";
+    const json speedup = report()["runs"][0]["results"][1]["speedup"];
+    EXPECT_EQ(speedup["compared"], 2);
+    EXPECT_TRUE(speedup["ci95"].is_null());
+    EXPECT_EQ(speedup["verdict"], "not resolved");
+}
+
+TEST_F(ReportFixture, OutliersAreMarkedAndKept) {
+    comparison.runs[0].results[1].samples[2] = sample(900, 810);
+    const json timing = report()["runs"][0]["results"][1]["timing"];
+    EXPECT_EQ(timing["outliers"], json({2}));
+    EXPECT_EQ(timing["samples"], json({5.0, 10.0, 900.0, 20.0, 25.0, 30.0}));
+}
+
+TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsTheIdealTimeOverTheOwn) {
+    json fragments = report()["runs"][0]["results"][1]["fragments"];
+    EXPECT_EQ(fragments["submitted"], 80);
+    EXPECT_EQ(fragments["shaded"], 16);
+    EXPECT_EQ(fragments["needed"], 16);
+    EXPECT_TRUE(fragments["efficiency"].is_null());
+    EXPECT_THAT(fragments["efficiency_reason"].get<std::string>(), HasSubstr("f2b"));
+
+    // With b2f's times as f2b's: 35 ms * 16 / 80 = 7 ms are ideal, 17.5 ms were taken.
+    comparison.runs[0].results[0].method.id = "f2b";
+    fragments = report()["runs"][0]["results"][1]["fragments"];
+    EXPECT_DOUBLE_EQ(fragments["efficiency"].get<double>(), 0.4);
+    EXPECT_FALSE(fragments.contains("efficiency_reason"));
+    EXPECT_DOUBLE_EQ(report()["runs"][0]["results"][0]["fragments"]["efficiency"].get<double>(), 1);
+
+    comparison.runs[0].results[1].fragments = {{}, "why not shaded", {}, "why not needed", {}};
+    fragments = report()["runs"][0]["results"][1]["fragments"];
+    for (const std::string name : {"shaded", "needed", "efficiency"}) EXPECT_TRUE(fragments[name].is_null()) << name;
+    EXPECT_EQ(fragments["shaded_reason"], "why not shaded");
+    EXPECT_EQ(fragments["needed_reason"], "why not needed");
+    EXPECT_EQ(fragments["efficiency_reason"], "why not needed");
+}
+
+TEST_F(ReportFixture, CountPicturesShareAScaleAndSayTheirGreatestValue) {
+    const json images = report()["runs"][0]["results"][1]["images"];
+    EXPECT_EQ(images["overdraw"]["greatest"], 10);
+    EXPECT_EQ(images["shaded"]["greatest"], 2);
+    EXPECT_EQ(images["saturation"]["greatest"], 2);
+    for (const char* key : {"overdraw", "shaded", "saturation"}) EXPECT_EQ(images[key]["full_scale"], 10) << key;
+    EXPECT_EQ(sink.bytes_by_name.at("2-F2BD--1-.shaded.png"),
+              encode_png(count_picture({4, 2, std::vector<std::uint32_t>(8, 2)}, 10)));
+    EXPECT_FALSE(report()["runs"][0]["results"][0]["images"].contains("saturation"));
+}
+
+TEST_F(ReportFixture, FragmentsCanBeChecked) {
+    spec.checks = {{"fragments.shaded", "F2BD <1>", 16, 16},
+                   {"fragments.efficiency", "F2BD <1>", 0, nullptr},
+                   {"memory_bytes", "F2BD <1>", nullptr, 0}};
+    const json checks = report()["checks"];
+    EXPECT_EQ(checks[0]["passed"], true);
+    EXPECT_EQ(checks[1]["passed"], false) << "without f2b it is not known";
+    EXPECT_EQ(checks[2]["passed"], true);
+    const Spec parsed = parse_spec({{"scene", {{"type", "quads"}}},
+                                    {"methods", {"f2b"}},
+                                    {"checks", {{{"metric", "fragments.efficiency"}, {"method", "f2b"}, {"min", 0}}}}});
+    EXPECT_EQ(parsed.checks[0].metric, "fragments.efficiency");
 }
 
 TEST_F(ReportFixture, AGpuIsTimedByItsOwnClockWhileTheClocksAgree) {
@@ -155,7 +252,11 @@ TEST_F(ReportFixture, PicturesHaveNamesAndHashesOfTheirBytes) {
 TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
     const std::string table = report_table(report());
     EXPECT_THAT(table, HasSubstr("b2f           35.00"));
-    EXPECT_THAT(table, HasSubstr("2.00x [2.00, 2.00]"));
+    EXPECT_THAT(table, HasSubstr("2.00x [2.00, 2.00]        faster"));
+    EXPECT_THAT(table, HasSubstr("F2BD <1>         80      16      16           -"));
+    EXPECT_LT(table.find("submitted"), table.find("median ms")) << "counts first on a software rasteriser";
+    EXPECT_THAT(table, HasSubstr("6 of 10 rounds, ended by max_seconds."));
+    EXPECT_THAT(table, HasSubstr("Noise floor, b2f against itself: 0.95x [0.95, 0.95]."));
     EXPECT_THAT(table, HasSubstr("f2bx      unsupported: no <barrier>"));
     EXPECT_THAT(table, HasSubstr("FAILED  rmse of f2bx is null, at most 1"));
     EXPECT_THAT(table, HasSubstr("do not predict"));
