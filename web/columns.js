@@ -31,6 +31,41 @@ export const TIMING_COLUMNS = [
   },
 ];
 
+/** Of the table of fragments. */
+export const FRAGMENT_COLUMNS = [
+  {
+    path: "fragments.submitted",
+    head: "Submitted",
+    whole: true,
+    title: "Transparent fragments that opaque geometry does not hide",
+  },
+  {
+    path: "fragments.shaded",
+    head: "Shaded",
+    whole: true,
+    title: "How often the method ran the scene's shading for a transparent fragment",
+  },
+  {
+    path: "fragments.needed",
+    head: "Needed",
+    whole: true,
+    title: "Fragments from front to back until less than the method's threshold of the light gets through",
+  },
+  {
+    path: "images.shaded.greatest",
+    head: "Most shaded",
+    unit: "per px",
+    whole: true,
+    title: "Greatest number of fragments that the method shaded in one pixel",
+  },
+  {
+    path: "fragments.efficiency",
+    head: "Efficiency",
+    better: (value) => -value,
+    title: "Ideal time, that of f2b for the needed fragments alone, over the method's own time",
+  },
+];
+
 export const SPEEDUP_COLUMN = {
   path: "speedup.value",
   head: "Speed-up",

@@ -2,9 +2,15 @@
 import { el, select, set_children } from "./dom.js";
 import { fixed, is_number, short_value, when, words } from "./format.js";
 import { ImageViewer } from "./image_viewer.js";
-import { difference_table, timing_table } from "./result_tables.js";
+import { difference_table, fragment_table, timing_table } from "./result_tables.js";
 
-const KIND_ORDER = ["color", "difference", "flip", "overdraw", "shaded"];
+const KIND_ORDER = ["color", "difference", "flip", "overdraw", "shaded", "saturation"];
+const COUNT_NOTES = {
+  overdraw: "Transparent fragments of each pixel that opaque geometry does not hide",
+  shaded: "Fragments of each pixel that the method shaded",
+  saturation:
+    "The fragment, counted from the front, with which less than the threshold is left; black where that never happens",
+};
 const KIND_LABELS = { color: "Colour", difference: "Difference", flip: "FLIP" };
 
 function is_shown(image) {
@@ -26,8 +32,16 @@ function kinds_of(run, metrics) {
     .map((key) => ({
       key,
       label: KIND_LABELS[key] ?? words(key),
-      note: metrics.find((metric) => metric.picture === key)?.summary,
+      note: metrics.find((metric) => metric.picture === key)?.summary ?? count_note(run, key),
     }));
+}
+
+/** What the colours of a picture of counts mean; all of a run share one scale. */
+function count_note(run, key) {
+  const images = run.results.map((result) => result.images?.[key]).filter((image) => is_number(image?.full_scale));
+  if (images.length === 0) return undefined;
+  const greatest = Math.max(...images.map((image) => image.greatest));
+  return `${COUNT_NOTES[key] ?? words(key)}. Black is 0, the palest yellow ${images[0].full_scale}; greatest ${greatest}`;
 }
 
 function pictures_of(images, picture_url) {
@@ -126,7 +140,7 @@ function software_notice(device) {
     "p",
     { class: "notice warning", role: "note" },
     el("strong", {}, "Software rasteriser. "),
-    "Times on a software rasteriser do not predict a GPU.",
+    "Times on a software rasteriser do not predict a GPU; counts of fragments come nearer.",
   );
 }
 
@@ -207,10 +221,12 @@ function run_part(report, run, options) {
       viewer.element.scrollIntoView({ block: "nearest", behavior: calm ? "auto" : "smooth" });
     },
   };
+  const times = timing_table(run, context);
+  const fragments = fragment_table(run.results, context);
   return [
     viewer.element,
     linear_links(run, picture_url),
-    timing_table(run.results, context),
+    report.device?.software ? [fragments, times] : [times, fragments],
     difference_table(run.results, context),
   ];
 }

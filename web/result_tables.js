@@ -1,9 +1,10 @@
-// The two tables of a run: times, and differences from the reference. One row a result, in the order of the spec.
+// The tables of a run: fragments, times, and differences from the reference. One row a result, in the order of the spec.
 import { append, el } from "./dom.js";
 import {
   best_results,
   column_title,
   DIFFERENCE_COLUMNS,
+  FRAGMENT_COLUMNS,
   missing_reason,
   SPEEDUP_COLUMN,
   TIMING_COLUMNS,
@@ -83,18 +84,22 @@ function pixel_cell(result, column, context) {
   );
 }
 
+function interval_text(ci95) {
+  return Array.isArray(ci95) && ci95.every(is_number) ? ci95.map((bound) => fixed(bound, 2)).join("–") : null;
+}
+
 function speedup_cell(result, decimals, best) {
   const cell = number_cell(result, SPEEDUP_COLUMN, decimals, best);
-  const { ci95, verdict } = result.speedup ?? {};
+  const { ci95, verdict, reason } = result.speedup ?? {};
   if (!cell.dataset.value) return cell;
-  const interval = Array.isArray(ci95) && ci95.every(is_number) ? ci95.map((bound) => fixed(bound, 2)).join("–") : null;
+  const interval = interval_text(ci95);
   return append(
     cell,
     el(
       "span",
       { class: "interval" },
       interval,
-      verdict ? el("span", { class: `verdict-word ${verdict.replace(" ", "-")}` }, verdict) : null,
+      verdict ? el("span", { class: `verdict-word ${verdict.replace(" ", "-")}`, title: reason }, verdict) : null,
     ),
   );
 }
@@ -130,8 +135,26 @@ function decimals_of(results, column) {
   );
 }
 
+/** How many rounds were timed, and how far the baseline is from itself. */
+function trust_text(run) {
+  const { rounds, noise_floor } = run;
+  const texts = [];
+  if (rounds) {
+    const done = rounds.done < rounds.asked ? `${rounds.done} of ${rounds.asked}` : rounds.done;
+    texts.push(`${done} rounds${rounds.done < rounds.asked ? ", ended by max_seconds" : ""}`);
+  }
+  if (noise_floor) {
+    const interval = interval_text(noise_floor.ci95);
+    texts.push(
+      `noise floor: ${noise_floor.method} against itself ${fixed(noise_floor.value, 2)}×${interval ? ` (${interval})` : ""}`,
+    );
+  }
+  return texts.join(" · ");
+}
+
 /** `context`: {methods, metrics, baseline, show_pixel(x, y, result)}. */
-export function timing_table(results, context) {
+export function timing_table(run, context) {
+  const { results } = run;
   const columns = TIMING_COLUMNS.filter((column) => results.some((result) => is_number(value_at(result, column.path))));
   const decimals = column_decimals(results.map((result) => value_at(result, "timing.median")));
   const decimals_in = (column) => (column.digits ? decimals_of(results, column) : decimals);
@@ -150,7 +173,7 @@ export function timing_table(results, context) {
       "tr",
       { "data-label": result.label },
       heading,
-      el("td", { class: "strip-cell" }, samples.length > 0 ? timing_strip(samples, end, mark) : null),
+      el("td", { class: "strip-cell" }, samples.length > 0 ? timing_strip(samples, end, mark, result.timing.outliers) : null),
       columns.map((column) => number_cell(result, column, decimals_in(column), best.get(column))),
       with_speedup ? speedup_cell(result, decimals_of(results, SPEEDUP_COLUMN), best.get(SPEEDUP_COLUMN)) : null,
     );
@@ -164,7 +187,11 @@ export function timing_table(results, context) {
         "caption",
         {},
         "Timings",
-        clocks.length > 0 ? el("span", { class: "muted" }, ` ${clocks.join(" and ")} clock`) : null,
+        el(
+          "span",
+          { class: "muted" },
+          ` ${[clocks.length > 0 ? `${clocks.join(" and ")} clock` : null, trust_text(run)].filter(Boolean).join(" · ")}`,
+        ),
       ),
       el(
         "thead",
@@ -181,6 +208,41 @@ export function timing_table(results, context) {
           ),
           columns.map((column) => head_cell(column, [])),
           with_speedup ? head_cell(SPEEDUP_COLUMN, []) : null,
+        ),
+      ),
+      el("tbody", {}, body),
+    ),
+  );
+}
+
+/** Null where the report has no counts. */
+export function fragment_table(results, context) {
+  if (!results.some((result) => result.fragments)) return null;
+  const best = new Map(FRAGMENT_COLUMNS.map((column) => [column, best_results(results, column)]));
+  const body = results.map((result) =>
+    el(
+      "tr",
+      result.fragments ? { "data-label": result.label } : { class: "no-result" },
+      method_cell(result, context),
+      result.fragments
+        ? FRAGMENT_COLUMNS.map((column) => number_cell(result, column, decimals_of(results, column), best.get(column)))
+        : reason_cell(result, FRAGMENT_COLUMNS.length),
+    ),
+  );
+  return scroll_box(
+    "Fragments",
+    el(
+      "table",
+      { class: "results fragments" },
+      el("caption", {}, "Fragments", el("span", { class: "muted" }, " counted in frames that are not timed")),
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          el("th", { scope: "col" }, "Method"),
+          FRAGMENT_COLUMNS.map((column) => head_cell(column, [])),
         ),
       ),
       el("tbody", {}, body),

@@ -45,6 +45,11 @@ export const CHECK_METRICS = [
   "timing.median",
   "timing.min",
   "timing.p95",
+  "fragments.submitted",
+  "fragments.shaded",
+  "fragments.needed",
+  "fragments.efficiency",
+  "memory_bytes",
 ];
 
 export const CHECK_BOUNDS = [

@@ -1,4 +1,5 @@
-// The timed frames of one method as a strip: a dot a frame, a box over the middle half, a line at the median.
+// The timed frames of one method as a strip: a dot a frame, outliers as rings, a box over the middle half, a line at the
+// median.
 import { svg } from "./dom.js";
 import { fixed, is_number } from "./format.js";
 
@@ -27,12 +28,13 @@ export function axis_end(value) {
   return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((step) => step * power).find((end) => end >= value * 0.999);
 }
 
-/** `end`: the time at the right edge; `mark`: the baseline's median, or null. */
-export function timing_strip(samples, end, mark) {
+/** `end`: the time at the right edge; `mark`: the baseline's median, or null; `outliers`: indices of samples. */
+export function timing_strip(samples, end, mark, outliers = []) {
   const x = (ms) => MARGIN + (ms / end) * (WIDTH - 2 * MARGIN);
   const sorted = [...samples].sort((a, b) => a - b);
   const [q1, median, q3] = [0.25, 0.5, 0.75].map((share) => quantile(sorted, share));
-  const label = `${samples.length} frames from ${fixed(sorted[0], 3)} to ${fixed(sorted.at(-1), 3)} ms`;
+  const far = outliers.length === 1 ? ", 1 outlier" : outliers.length > 1 ? `, ${outliers.length} outliers` : "";
+  const label = `${samples.length} frames from ${fixed(sorted[0], 3)} to ${fixed(sorted.at(-1), 3)} ms${far}`;
   return svg(
     "svg",
     { class: "strip", viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": label },
@@ -40,7 +42,14 @@ export function timing_strip(samples, end, mark) {
     svg("line", { class: "axis", x1: x(0), x2: x(end), y1: HEIGHT - 1, y2: HEIGHT - 1 }),
     is_number(mark) ? svg("line", { class: "baseline", x1: x(mark), x2: x(mark), y1: 0, y2: HEIGHT }) : null,
     svg("rect", { class: "box", x: x(q1), y: 4, width: Math.max(1, x(q3) - x(q1)), height: HEIGHT - 8, rx: 2 }),
-    samples.map((ms, index) => svg("circle", { cx: x(ms), cy: HEIGHT * ROWS[index % ROWS.length], r: 2 })),
+    samples.map((ms, index) =>
+      svg("circle", {
+        class: outliers.includes(index) ? "outlier" : "sample",
+        cx: x(ms),
+        cy: HEIGHT * ROWS[index % ROWS.length],
+        r: outliers.includes(index) ? 3 : 2,
+      }),
+    ),
     svg("line", { class: "median", x1: x(median), x2: x(median), y1: 2, y2: HEIGHT - 2 }),
   );
 }
