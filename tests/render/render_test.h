@@ -33,6 +33,13 @@ class Stage {
           m_scene(context.gl(), build_geometry(spec.scene, spec.image, m_assets), spec.scene),
           m_target(context.gl(), spec.image, format) {}
 
+    /// With other geometry than the spec's.
+    Stage(gl::Context& context, const Spec& spec, PixelFormat format, const Geometry& geometry)
+        : m_context(context),
+          m_timer(context),
+          m_scene(context.gl(), geometry, spec.scene),
+          m_target(context.gl(), spec.image, format) {}
+
     const Scene& scene() const { return m_scene; }
     const Target& target() const { return m_target; }
 
