@@ -27,6 +27,13 @@ page_test("the tables show the numbers of the report", {}, async (page) => {
   await page.locator("article.report").waitFor();
   const { results } = (await api(`/reports/${tests.report_id()}`)).runs[0];
   const tables = {
+    fragments: [
+      "fragments.submitted",
+      "fragments.shaded",
+      "fragments.needed",
+      "images.shaded.greatest",
+      "fragments.efficiency",
+    ],
     timings: [
       "timing.median",
       "timing.mad",
