@@ -61,7 +61,6 @@ export const FRAGMENT_COLUMNS = [
   {
     path: "fragments.efficiency",
     head: "Efficiency",
-    better: (value) => -value,
     title: "Ideal time, that of f2b for the needed fragments alone, over the method's own time",
   },
 ];
