@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     sheer::cli::add_compare(app, exit_code);
     sheer::cli::add_serve(app, exit_code);
     sheer::cli::add_catalog(app, exit_code);
+    sheer::cli::add_docs(app, exit_code);
     sheer::cli::add_render(app, exit_code);
     sheer::cli::add_worker(app, exit_code);
     try {

@@ -52,7 +52,8 @@ std::vector<Param> check_fields() {
 std::vector<Param> spec_fields() {
     return {
         Param::text("title", "shown with the report", "", max_text_bytes),
-        any("tags", "names and texts to find the report by", json::object()),
+        any("tags", fmt::format("an object of at most {} names and texts to find the report by", max_tags),
+            json::object()),
         Param::object(
             "image", "the picture that is rendered",
             {Param::integer("width", "columns", "px", 512, 1, 4096),
@@ -60,7 +61,9 @@ std::vector<Param> spec_fields() {
              Param::numbers("background", "red, green, blue behind everything", "", {0, 0, 0}, 0, 1),
              Param::choice("format", "what the methods blend into", "rgba8", {"rgba8", "rgba16f", "rgba32f"})}),
         any("scene", "an object with the type of the scene and its parameters", nullptr),
-        any("methods", "an array of method ids, or of objects with id, label and parameters", nullptr),
+        any("methods",
+            fmt::format("an array of 1 to {} method ids, or objects with id, label and parameters", max_methods),
+            nullptr),
         any("reference", "the method that the others are held against for differences", "exact"),
         optional_text("baseline", "label or id of the method that speed is held against; b2f, else the first"),
         Param::object("timing", "how long each method is timed",
@@ -310,6 +313,10 @@ json spec_schema() {
     properties["methods"].update(
         {{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods}, {"items", {{"oneOf", methods}}}});
     return schema;
+}
+
+json describe_spec_fields() {
+    return to_json(spec_fields());
 }
 
 json describe_methods() {

@@ -61,6 +61,8 @@ Spec parse_spec_text(const std::string& text);
 
 /// JSON schema (draft 7) of a spec, made from the descriptions of methods and scenes.
 nlohmann::json spec_schema();
+/// The fields of a spec as to_json() gives them. What scene, methods and reference hold is described with these.
+nlohmann::json describe_spec_fields();
 
 /// What `GET /methods` and `GET /scenes` answer: an array of self-descriptions with `parameters`.
 nlohmann::json describe_methods();

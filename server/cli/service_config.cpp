@@ -4,8 +4,6 @@
 
 #include <fstream>
 
-#include "renderer/spec/param.h"
-
 namespace sheer::cli {
 
 using nlohmann::json;
@@ -59,18 +57,6 @@ std::vector<Param> worker_fields() {
             seconds("probe_interval_s", "between two probes of an idle worker", 30, day_s)};
 }
 
-std::vector<Param> config_fields() {
-    Param hosts{.name = "allowed_hosts", .kind = Param::Kind::any, .summary = "names that the service answers for"};
-    hosts.default_value = json::array();
-    return {Param::text("listen", "ADDRESS:PORT; port 0 for any that is free", "127.0.0.1:8080", 200),
-            Param::text("data", "folder of the archive", "sheer-data", 4096),
-            Param::integer("workers", "worker processes; 0 for none", "", 1, 0, 256),
-            std::move(hosts),
-            Param::object("http", "what connections may take", http_fields()),
-            Param::object("jobs", "the queue", jobs_fields()),
-            Param::object("worker", "the processes that render", worker_fields())};
-}
-
 std::set<std::string> read_hosts(const json& hosts, std::vector<FieldError>& errors) {
     std::set<std::string> names;
     if (!hosts.is_array()) errors.push_back({"/allowed_hosts", "must be an array of names"});
@@ -106,10 +92,22 @@ http::Limits limits_of(const json& read) {
 
 }  // namespace
 
+std::vector<Param> service_config_fields() {
+    Param hosts{.name = "allowed_hosts", .kind = Param::Kind::any, .summary = "names that the service answers for"};
+    hosts.default_value = json::array();
+    return {Param::text("listen", "ADDRESS:PORT; port 0 for any that is free", "127.0.0.1:8080", 200),
+            Param::text("data", "folder of the archive", "sheer-data", 4096),
+            Param::integer("workers", "worker processes; 0 for none", "", 1, 0, 256),
+            std::move(hosts),
+            Param::object("http", "what connections may take", http_fields()),
+            Param::object("jobs", "the queue", jobs_fields()),
+            Param::object("worker", "the processes that render", worker_fields())};
+}
+
 ServiceConfig read_service_config(const json& document) {
     if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "must be a JSON object"}});
     std::vector<FieldError> errors;
-    const json read = read_fields(document, "", config_fields(), errors);
+    const json read = read_fields(document, "", service_config_fields(), errors);
     std::set<std::string> hosts = read_hosts(read["allowed_hosts"], errors);
     if (errors.empty() && read["jobs"]["lease_s"] <= read["jobs"]["heartbeat_s"])
         errors.push_back({"/jobs/lease_s", "must be longer than heartbeat_s"});

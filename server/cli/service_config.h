@@ -2,7 +2,9 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "renderer/spec/param.h"
 #include "server/http/limits.h"
 #include "server/jobs/lease_rules.h"
 #include "server/worker/worker.h"
@@ -23,6 +25,9 @@ struct ServiceConfig {
     LeaseRules leases;
     WorkerOptions worker;  ///< without `data` and `name`
 };
+
+/// What may stand in it.
+std::vector<Param> service_config_fields();
 
 /// Throws SpecError that names every wrong or unknown field.
 ServiceConfig read_service_config(const nlohmann::json& document);
