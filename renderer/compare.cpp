@@ -9,6 +9,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "renderer/frame/depth_peeler.h"
 #include "renderer/frame/needed.h"
 #include "renderer/frame/overdraw.h"
 #include "renderer/frame/shading_counter.h"
@@ -18,9 +19,6 @@
 namespace sheer {
 
 namespace {
-
-/// The residual is measured where peeling draws at most this many fragments: seconds on a software rasteriser.
-constexpr double max_peeled_fragments = 4e8;
 
 /// Fractions of the job at which each stage begins, for the progress bar.
 constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0.3, counting_begin = 0.8,
@@ -87,7 +85,7 @@ class Comparer {
         m_timer.begin_frame(false);
         run.overdraw = count_overdraw(m_context.gl(), scene, target, m_timer);
         m_timer.end_frame();
-        const double peeled = static_cast<double>(run.overdraw.total()) * (run.overdraw.greatest() + 1.0);
+        const double peeled = peeled_fragments(run.overdraw);
         if (peeled > max_peeled_fragments) {
             run.no_residual_reason = fmt::format("depth peeling would draw {:.3g} fragments; the limit is {:.3g}",
                                                  peeled, max_peeled_fragments);
@@ -186,7 +184,7 @@ class Comparer {
             fragments.needed = overdraw;
             return;
         }
-        fragments.no_needed_reason = why_needed_is_unknown(scene);
+        fragments.no_needed_reason = why_needed_is_unknown(scene, overdraw);
         if (!fragments.no_needed_reason.empty()) return;
         const auto threshold = method.parameters.at("threshold").get<float>();
         if (!known.contains(threshold)) {

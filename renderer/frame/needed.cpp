@@ -1,7 +1,10 @@
 #include "renderer/frame/needed.h"
 
+#include <fmt/format.h>
+
 #include "renderer/frame/accumulation.h"
 #include "renderer/frame/count_image.h"
+#include "renderer/frame/depth_peeler.h"
 
 namespace sheer {
 
@@ -21,10 +24,45 @@ PixelCounts saturation_layers(const gl::Functions& gl, const Accumulation& accum
     return needed;
 }
 
+void count_by_primitive(const gl::Functions& gl, const Scene& scene, const Accumulation& accumulation,
+                        float threshold) {
+    const gl::Program program = scene.make_program("needed fragments", gl::shader_file("common/count_needed.glsl"),
+                                                   "layout(early_fragment_tests) in;\n");
+    program.set("u_threshold", threshold);
+    accumulation.begin_blending();
+    for (std::size_t i = 0; i < scene.transparent_count(); ++i) {
+        gl.TextureBarrier();
+        scene.draw_transparent(program, Order::near_to_far, i, 1);
+    }
+}
+
+void count_by_layer(const gl::Functions& gl, const Scene& scene, const Target& target, const Accumulation& accumulation,
+                    float threshold) {
+    constexpr GLuint unit_layer_depth = first_method_texture_unit + 1, unit_layer = first_method_texture_unit + 4;
+    const FullscreenPass count(gl, "needed fragments", gl::shader_file("common/count_needed_layer.glsl"));
+    count.program().set("u_threshold", threshold);
+    DepthPeeler peeler(gl, scene, target);
+    peeler.begin();
+    while (peeler.next()) {
+        accumulation.begin_blending();
+        gl.Disable(GL_DEPTH_TEST);
+        gl.TextureBarrier();
+        gl.BindTextureUnit(unit_layer_depth, peeler.depth().id());
+        gl.BindTextureUnit(unit_layer, peeler.color().id());
+        count.draw();
+    }
+}
+
 }  // namespace
 
-std::string why_needed_is_unknown(const Scene& scene) {
-    if (!scene.parallel()) return "primitives may intersect, so that no order of whole primitives is the exact one";
+std::string why_needed_is_unknown(const Scene& scene, const PixelCounts& overdraw) {
+    if (!scene.parallel()) {
+        const double peeled = peeled_fragments(overdraw);
+        if (peeled <= max_peeled_fragments) return "";
+        return fmt::format(
+            "primitives may intersect, and peeling them would draw {:.3g} fragments; the limit is {:.3g}", peeled,
+            max_peeled_fragments);
+    }
     if (scene.transparent_count() > most_primitives)
         return "each primitive must be drawn by itself, and there are over " + std::to_string(most_primitives);
     return "";
@@ -34,18 +72,15 @@ NeededFragments count_needed(const gl::Functions& gl, const Scene& scene, const 
                              gl::FrameTimer& timer) {
     const CountImage image(gl, "needed fragments", target.width_px(), target.height_px());
     const Accumulation accumulation(gl, target, target.format());
-    const gl::Program program = scene.make_program("needed fragments", gl::shader_file("common/count_needed.glsl"),
-                                                   "layout(early_fragment_tests) in;\n");
-    program.set("u_threshold", threshold);
     OpaquePass(gl, scene, target).draw(timer);
     const auto pass = timer.pass("needed fragments", gl::Phase::transparent);
     accumulation.clear(1);
-    accumulation.begin_blending();
     gl.BindTextureUnit(first_method_texture_unit, accumulation.readable_alpha().id());
     image.bind();
-    for (std::size_t i = 0; i < scene.transparent_count(); ++i) {
-        gl.TextureBarrier();
-        scene.draw_transparent(program, Order::near_to_far, i, 1);
+    if (scene.parallel()) {
+        count_by_primitive(gl, scene, accumulation, threshold);
+    } else {
+        count_by_layer(gl, scene, target, accumulation, threshold);
     }
     NeededFragments result{image.read(), {}};
     result.saturation = saturation_layers(gl, accumulation, result.needed, threshold);

@@ -6,7 +6,7 @@
 
 namespace sheer {
 
-/// What the exact front-to-back order must shade of a scene whose primitives are parallel.
+/// What the exact front-to-back order must shade.
 struct NeededFragments {
     /// Fragments that find at least the threshold of the transmittance left.
     PixelCounts needed;
@@ -15,12 +15,13 @@ struct NeededFragments {
     PixelCounts saturation;
 };
 
-/// Why count_needed cannot tell it of this scene; empty if it can.
-std::string why_needed_is_unknown(const Scene& scene);
+/// Why count_needed cannot tell it of this scene, whose count_overdraw is given; empty if it can.
+std::string why_needed_is_unknown(const Scene& scene, const PixelCounts& overdraw);
 
-/// Blends from near to far, primitive by primitive with a texture barrier between, so that every fragment sees what all
-/// nearer ones have left; nothing is discarded. The transmittance is kept in the target's format, as a method's own is.
-/// For scenes of which it can tell. Fragments that opaque geometry hides do not count. Draws the opaque pass first.
+/// Blends from near to far, with a texture barrier before each step, so that every fragment sees what all nearer ones
+/// have left; nothing is discarded. A step is one primitive where primitives are parallel, else a peeled layer. The
+/// transmittance is kept in the target's format, as a method's own is. Fragments that opaque geometry hides do not
+/// count. Draws the opaque pass first.
 NeededFragments count_needed(const gl::Functions& gl, const Scene& scene, const Target& target, float threshold,
                              gl::FrameTimer& timer);
 

@@ -74,6 +74,18 @@ TEST(Compare, StopsTimingAfterItsTimeButNotBeforeOneRound) {
     }
 }
 
+TEST(Compare, TimesTheBaselineTwiceInEveryRoundAndSaysHowManyThereWere) {
+    const auto context = make_context("egl");
+    const sheer::Run all = std::move(compare_here(small_spec(), *context, no_progress).runs[0]);
+    EXPECT_EQ(all.rounds_done, 3);
+    EXPECT_EQ(all.baseline_again.size(), 3u);
+    const auto short_time = small_spec({{"rounds", 1000}, {"max_seconds", 0.001}});
+    const sheer::Run cut = std::move(compare_here(short_time, *context, no_progress).runs[0]);
+    EXPECT_EQ(cut.rounds_done, 1) << "any second round takes over a millisecond";
+    EXPECT_EQ(cut.baseline_again.size(), 1u);
+    EXPECT_EQ(cut.results[0].samples.size(), 1u);
+}
+
 TEST(Compare, ProgressGrowsAndNamesEachStage) {
     const auto context = make_context("egl");
     std::vector<double> fractions;
@@ -85,7 +97,8 @@ TEST(Compare, ProgressGrowsAndNamesEachStage) {
     EXPECT_TRUE(std::ranges::is_sorted(fractions));
     EXPECT_EQ(fractions.front(), 0);
     EXPECT_LT(fractions.back(), 1);
-    for (const char* stage : {"building the scene", "warming up f2bd", "timing round 2 of 3", "measuring b2f"})
+    for (const char* stage : {"building the scene", "warming up f2bd", "timing round 2 of 3",
+                              "counting the fragments of f2bx", "measuring b2f"})
         EXPECT_TRUE(stages.contains(stage)) << stage;
 }
 

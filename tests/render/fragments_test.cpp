@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "renderer/compare.h"
+#include "renderer/frame/needed.h"
 #include "tests/render/compositor.h"
 #include "tests/render/render_test.h"
 
@@ -187,11 +188,36 @@ TEST(Fragments, WhatCannotBeToldHasAReason) {
     EXPECT_EQ(peeled.results[0].fragments.shaded, std::nullopt);
     EXPECT_THAT(peeled.results[0].fragments.no_shaded_reason, HasSubstr("samples pass"));
     EXPECT_EQ(peeled.results[0].status, "ok");
+}
 
-    const sheer::Run foliage = run_of({{"type", "foliage"}, {"trees", 1}}, {"f2bd"});
-    EXPECT_TRUE(foliage.results[0].fragments.shaded.has_value());
-    EXPECT_EQ(foliage.results[0].fragments.needed, std::nullopt);
-    EXPECT_THAT(foliage.results[0].fragments.no_needed_reason, HasSubstr("intersect"));
+/// Primitives that may intersect are peeled, layer by layer; nothing tells these from others but `parallel`.
+TEST(Fragments, NeededOfWhatMayIntersectIsThatOfACompositeOnTheCpu) {
+    const json scene = stack_of_layers(0.5);
+    const Spec spec =
+        parse_spec({{"scene", scene}, {"methods", {"f2b"}}, {"image", {{"width", size_px}, {"height", size_px}}}});
+    NoAssets assets;
+    Geometry geometry = build_geometry(spec.scene, spec.image, assets);
+    geometry.parallel = false;
+    const auto context = make_context("egl");
+    for (const PixelFormat format : {PixelFormat::rgba8, PixelFormat::rgba32f}) {
+        const Stage stage(*context, spec, format, geometry);
+        gl::FrameTimer timer(*context);
+        timer.begin_frame(false);
+        const NeededFragments counted = count_needed(context->gl(), stage.scene(), stage.target(), 0.1f, timer);
+        timer.end_frame();
+        EXPECT_EQ(counted.needed.counts, needed_on_the_cpu(scene, 0.1).counts);
+        EXPECT_EQ(counted.saturation.counts,
+                  on_the_cpu(scene, [](const auto& f) { return f.size() >= 4 ? 4u : 0u; }).counts);
+        EXPECT_EQ(why_needed_is_unknown(stage.scene(), {1, 1, {19999}}), "");
+        EXPECT_THAT(why_needed_is_unknown(stage.scene(), {1, 1, {20001}}), HasSubstr("intersect"));
+    }
+}
+
+TEST(Fragments, FoliageIsCounted) {
+    const sheer::Run run = run_of({{"type", "foliage"}, {"trees", 1}}, {"f2b", {{"id", "f2bd"}, {"threshold", 0.3}}});
+    const std::uint64_t needed = run.results[1].fragments.needed->total();
+    EXPECT_GT(needed, 0u);
+    EXPECT_LE(needed, run.overdraw.total());
 }
 
 /// The counting must not be seen in the picture, so every method is asked, and its picture compared with an uncounted.

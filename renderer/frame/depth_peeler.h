@@ -1,0 +1,48 @@
+#pragma once
+#include "renderer/frame/pixel_counts.h"
+#include "renderer/frame/target.h"
+
+namespace sheer {
+
+/// Takes the transparent fragments of a scene layer by layer, from near to far, without sorting (Everitt, Interactive
+/// Order-Independent Transparency, NVIDIA 2001). Fragments of equal depth are told apart by their primitive, so that
+/// none is lost; the later submitted one is the nearer. The target's depth is that of the opaque pass.
+class DepthPeeler {
+  public:
+    DepthPeeler(const gl::Functions& gl, const Scene& scene, const Target& target);
+
+    /// To the front of the first layer.
+    void begin();
+    /// Draws the next layer; false where no fragment was left. Waits for the device.
+    bool next();
+    /// Of the layer that next() drew: the shaded colour, in 32-bit floats, 0 where the pixel has no fragment left.
+    const gl::Texture& color() const { return m_layers[m_current].color; }
+    /// And the depth, 0..1; 2 where the pixel has no fragment left.
+    const gl::Texture& depth() const { return m_layers[m_current].depth; }
+    std::int64_t memory_bytes() const;
+
+  private:
+    struct Layer {
+        gl::Texture color, depth, primitive;
+        gl::Framebuffer framebuffer;
+    };
+    gl::Texture texture(const std::string& what, GLenum format) const;
+    void clear(const Layer& layer, float depth) const;
+
+    const gl::Functions& m_gl;
+    const Scene& m_scene;
+    const Target& m_target;
+    gl::Program m_peel;
+    gl::Query m_any_fragment;
+    gl::Texture m_depth;
+    Layer m_layers[2];
+    int m_current = 0;
+};
+
+/// How many fragments peeling draws: all of them, once for each layer of the deepest pixel and once to find no more.
+double peeled_fragments(const PixelCounts& overdraw);
+
+/// What is worth waiting for on a software rasteriser: seconds.
+inline constexpr double max_peeled_fragments = 4e8;
+
+}  // namespace sheer

@@ -1,0 +1,19 @@
+// Blends one peeled layer as F2B does, and counts the fragments that find at least u_threshold of the transmittance left.
+// Reads the texture that it draws to, each texel once and by the fragment that writes it: defined after a texture
+// barrier (OpenGL 4.5, section 9.3.1).
+uniform float u_threshold;
+
+layout(binding = 8) uniform sampler2D u_alpha;
+layout(binding = 9) uniform sampler2D u_layer_depth;
+layout(binding = 12) uniform sampler2D u_layer;
+layout(binding = 0, r32ui) uniform restrict uimage2D u_needed;
+
+layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool has_fragment = texelFetch(u_layer_depth, pixel, 0).r <= 1.0;
+    if (has_fragment && texelFetch(u_alpha, pixel, 0).a >= u_threshold) imageAtomicAdd(u_needed, pixel, 1u);
+    vec4 work = texelFetch(u_layer, pixel, 0);
+    o_color = vec4(work.rgb * work.a, 1.0 - work.a);
+}
