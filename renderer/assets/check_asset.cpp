@@ -1,0 +1,49 @@
+#include "renderer/assets/check_asset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/assets/file_bytes.h"
+#include "renderer/assets/picture_file.h"
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+AssetKind picture_kind(const char* media_type, PictureFormat format) {
+    const auto check = [format](const std::filesystem::path& file) {
+        const std::string bytes = read_asset_bytes(file);
+        if (const PictureHeader header = read_picture_header(bytes); header.format != format)
+            throw AssetError(fmt::format("the file is a {}, not a {}", name_of(header.format), name_of(format)));
+        const PictureFacts facts = decode_picture(bytes, [](int, const float*) {});
+        return json{{"width", facts.header.width_px}, {"height", facts.header.height_px}, {"channels", facts.channels}};
+    };
+    return {media_type, "texture", check};
+}
+
+}  // namespace
+
+const std::vector<AssetKind>& asset_kinds() {
+    static const std::vector<AssetKind> kinds = {
+        picture_kind("image/png", PictureFormat::png),
+        picture_kind("image/jpeg", PictureFormat::jpeg),
+        picture_kind("image/x-exr", PictureFormat::exr),
+    };
+    return kinds;
+}
+
+const AssetKind* find_asset_kind(const std::string& media_type) {
+    const auto found = std::ranges::find(asset_kinds(), media_type, &AssetKind::media_type);
+    return found == asset_kinds().end() ? nullptr : &*found;
+}
+
+json check_asset(const std::filesystem::path& file, const std::string& media_type) {
+    const AssetKind* kind = find_asset_kind(media_type);
+    if (kind == nullptr) throw AssetError("files of the type " + media_type + " are not taken");
+    return kind->check(file);
+}
+
+}  // namespace sheer

@@ -1,0 +1,20 @@
+#include "renderer/assets/file_assets.h"
+
+#include "renderer/assets/file_bytes.h"
+#include "renderer/assets/picture_file.h"
+
+namespace sheer {
+
+Picture FileAssets::picture(const std::string& name, int width_px, int height_px) {
+    return read_picture(read_asset_bytes(m_resolve(name)), width_px, height_px);
+}
+
+FileAssets assets_in_folder(std::filesystem::path folder) {
+    return FileAssets([folder = std::move(folder)](const std::string& name) {
+        std::filesystem::path file = folder / name;
+        if (!std::filesystem::is_regular_file(file)) throw AssetError("there is no file \"" + name + "\"");
+        return file;
+    });
+}
+
+}  // namespace sheer

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "renderer/scene/assets.h"
+
+namespace sheer {
+
+/// Reads the files that a spec refers to: PNG, JPEG and OpenEXR pictures.
+class FileAssets : public AssetReader {
+  public:
+    /// From the name in the spec to the file; throws AssetError for one that may not be read or is not there.
+    using Resolver = std::function<std::filesystem::path(const std::string& name)>;
+
+    explicit FileAssets(Resolver resolve) : m_resolve(std::move(resolve)) {}
+    Picture picture(const std::string& name, int width_px, int height_px) override;
+
+  private:
+    Resolver m_resolve;
+};
+
+/// Names are paths, those that are not absolute within `folder`.
+FileAssets assets_in_folder(std::filesystem::path folder);
+
+}  // namespace sheer

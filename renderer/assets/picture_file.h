@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+#include <string_view>
+
+#include "renderer/assets/picture_header.h"
+
+namespace sheer {
+
+/// What is known of a picture once all of it is decoded.
+struct PictureFacts {
+    PictureHeader header;
+    int channels = 0;       ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
+    bool eight_bit = true;  ///< else 16-bit whole numbers or floats
+};
+
+/// A row from the top: 4 channels a pixel, straight alpha, values as in the file (8 and 16 bits as fractions of 1).
+using RowFunction = std::function<void(int y, const float* rgba)>;
+
+/// Decodes a PNG, JPEG or OpenEXR picture, whose format its own first bytes say, and hands out every row once.
+/// OpenEXR's colours are premultiplied in the file; they are divided by their alpha where that is not 0.
+/// Throws AssetError for what cannot be decoded and for pixels that are not finite.
+PictureFacts decode_picture(std::string_view bytes, const RowFunction& row);
+
+/// The picture scaled to this size. No transfer function is applied: the methods blend the values as they are.
+/// A spec's texture, or one inside a model. Throws AssetError.
+Picture read_picture(std::string_view bytes, int width_px, int height_px);
+
+}  // namespace sheer
