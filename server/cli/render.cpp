@@ -1,5 +1,6 @@
 // The worker's child: renders one job and says how far it is, a JSON object a line. It may die without harm.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <cstdio>
 
@@ -7,6 +8,7 @@
 #include "renderer/frame/target.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
+#include "server/cli/failure.h"
 #include "server/cli/rendering.h"
 
 namespace sheer::cli {
@@ -24,11 +26,6 @@ struct Options {
 void say(const json& line) {
     fmt::print("{}\n", line.dump());
     std::fflush(stdout);
-}
-
-int fail(const std::string& kind, const std::exception& error, int exit_code, const json& errors = json::array()) {
-    say({{"error", {{"kind", kind}, {"detail", error.what()}, {"errors", errors}}}});
-    return exit_code;
 }
 
 /// Clears one pixel and reads it back.
@@ -49,7 +46,7 @@ int run(const Options& options) {
     try {
         if (options.probe) return probe(*gl::create_context(options.context));
         const std::string created_at = utc_now();
-        const Spec spec = load_spec(options.spec);
+        const Spec spec = parse_spec_text(read_text(options.spec));
         const auto context = gl::create_context(options.context);
         NoAssets assets;
         const Comparison comparison = compare(spec, *context, assets, [](double fraction, const std::string& stage) {
@@ -59,15 +56,11 @@ int run(const Options& options) {
         const json report = make_report(spec, comparison, sink, created_at);
         write_text(std::filesystem::path(options.out) / "report.json", report.dump());
         return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
-    } catch (const SpecError& error) {
-        json errors = json::array();
-        for (const FieldError& field : error.errors())
-            errors.push_back({{"pointer", field.pointer}, {"detail", field.detail}});
-        return fail("spec", error, exit_bad_spec, errors);
-    } catch (const Unsupported& error) {
-        return fail("unsupported", error, exit_render_failed);
     } catch (const std::exception& error) {
-        return fail("render", error, exit_render_failed);
+        const Failure failure = describe_failure(error);
+        if (!failure.is_for_caller) spdlog::error("the renderer failed: {}", error.what());
+        say(failure.message);
+        return failure.exit_code;
     }
 }
 
