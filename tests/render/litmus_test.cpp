@@ -158,7 +158,8 @@ TEST(LitmusTable, HasEveryMethodOnEveryScene) {
 
 class LitmusDetails : public LitmusTest {};
 
-/// Four layers of alpha 1, C0 farthest: slides 19 and 21 say 3 D - C0 - C1 - C2 and 6 D - C0 - C1 - C2.
+/// Four layers of alpha 1, C0 farthest: truth minus `simple` is 3 D - C0 - C1 - C2 (slide 21), minus `full` it is
+/// 6 D - C0 - C1 - C2 (slide 19).
 TEST_F(LitmusDetails, MeshkinIsOffByTheTermsOfTheSlides) {
     const LitmusScene scene = litmus_scene("alpha_to_1");
     const int x = litmus_size_px - 1;
