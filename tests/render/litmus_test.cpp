@@ -177,6 +177,18 @@ TEST_F(LitmusDetails, MeshkinIsOffByTheTermsOfTheSlides) {
     }
 }
 
+/// With all depths at 1 nothing would hide what is behind it.
+TEST_F(LitmusDetails, NoPassKeepsTheDepthRangeOfThoseBefore) {
+    const LitmusScene scene = litmus_scene("opaque_between");
+    for (const MethodInfo& method : all_methods()) {
+        const json only_id = {{"id", method.id}};
+        m_context->gl().DepthRange(0, 1);
+        const Image expected = picture(scene, only_id);
+        m_context->gl().DepthRange(1, 1);
+        EXPECT_EQ(greatest_difference(picture(scene, only_id), expected), 0) << method.id;
+    }
+}
+
 /// The layers after the eighth have no say, and each frame leaves the share T of what was wrong before it.
 TEST_F(LitmusDetails, StencilCapLosesLayersAndSettles) {
     LitmusScene scene = litmus_scene("64_layers");
