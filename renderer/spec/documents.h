@@ -13,8 +13,8 @@ struct Document {
     std::string text;
 };
 
-/// docs/methods.md, docs/litmus.md, configs/README.md and configs/schema/spec.schema.json. `service_fields` describe the
-/// service's configuration; `litmus` is tests/render/litmus.json.
+/// docs/methods.md, docs/litmus.md, configs/README.md and configs/schema/spec.schema.json. `service_fields` describe
+/// the service's configuration; `litmus` is tests/render/litmus.json.
 std::vector<Document> make_documents(const std::vector<Param>& service_fields, const nlohmann::json& litmus);
 
 /// A row for each field, fields of fields below theirs: pointer, what it says, type, unit, range, default.
