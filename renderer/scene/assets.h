@@ -1,8 +1,10 @@
 #pragma once
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "renderer/frame/image.h"
+#include "renderer/scene/volume.h"
 
 namespace sheer {
 
@@ -10,6 +12,13 @@ namespace sheer {
 struct Picture {
     Image image;
     bool eight_bit = true;  ///< the file has 8 bits a channel, so that 8 bits keep all of it
+};
+
+/// What a file of voxels without a header holds, little-endian.
+struct RawVolume {
+    glm::ivec3 size;
+    glm::dvec3 spacing{1};
+    std::string voxel;  ///< uint8, uint16 or float32
 };
 
 /// A file is not what the spec says it is, or is not there; the text is meant for the caller and names no path of ours.
@@ -26,12 +35,15 @@ class AssetReader {
     virtual ~AssetReader() = default;
     /// Scaled to width x height by area-averaging or cubic interpolation, whatever its own shape.
     virtual Picture picture(const std::string& name, int width_px, int height_px) = 0;
+    /// NRRD, unless `raw` says what the file holds.
+    virtual Volume volume(const std::string& name, const std::optional<RawVolume>& raw) = 0;
 };
 
 /// For where there are no files: everything is an AssetError.
 class NoAssets : public AssetReader {
   public:
     Picture picture(const std::string& name, int, int) override { refuse(name); }
+    Volume volume(const std::string& name, const std::optional<RawVolume>&) override { refuse(name); }
 
   private:
     [[noreturn]] static void refuse(const std::string& name) {

@@ -101,6 +101,7 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
         if (shading->reads > 0) make_textures(geometry, parameters.at("texture"));
     } else {
         m_shading_source += gl::shader_file("scenes/" + name + ".glsl");
+        if (geometry.volume) m_volume = VolumeTextures(m_gl, *geometry.volume);
     }
 }
 
@@ -152,6 +153,7 @@ void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
     m_gl.VertexArrayElementBuffer(m_vertex_array.id(), indices.id());
     program.set("u_reads", m_reads);
     if (m_textures) m_gl.BindTextureUnit(0, m_textures.id());
+    m_volume.bind(m_gl, program);
 }
 
 std::size_t Scene::triangle_count(Order order, std::size_t first, std::size_t count) const {

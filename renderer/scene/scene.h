@@ -72,6 +72,7 @@ class Scene {
     DrawList m_lists[3];  ///< by Order
     int m_reads = 0;
     gl::Texture m_textures;  ///< an array of four
+    VolumeTextures m_volume;
 };
 
 /// First texture unit that methods may use.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/scene/assets.h"
+#include "renderer/scene/volume_shading.h"
 #include "renderer/spec/param.h"
 #include "renderer/spec/spec.h"
 
@@ -38,6 +39,7 @@ struct Geometry {
     std::vector<Primitive> primitives;
     glm::mat4 view_projection{1.0f};
     std::optional<Picture> texture;  ///< square; in place of the four procedural textures
+    std::optional<VolumeShading> volume;
     bool parallel = false;  ///< drawing the primitives in depth order is exact: none intersect, each has one depth
 
     /// Appends a rectangle parallel to the screen: corners in fractions of the image, origin top left, y down.

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace sheer {
+
+/// Scalars of 0..1 on a grid, x fastest, then y, then z.
+struct Volume {
+    glm::ivec3 size{0};               ///< voxels along each axis
+    glm::dvec3 spacing{1};            ///< from voxel to voxel; only their ratios matter
+    std::vector<std::uint8_t> bytes;  ///< 255 for 1; empty where `floats` holds the voxels
+    std::vector<float> floats;
+
+    std::size_t voxel_count() const {
+        return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+    }
+    /// Of the whole, scaled so that the longest side is 1.
+    glm::dvec3 sides() const {
+        const glm::dvec3 whole = spacing * glm::dvec3(size);
+        return whole / glm::max(whole.x, glm::max(whole.y, whole.z));
+    }
+};
+
+/// A head that looks along z with y up: skin, flesh, skull, teeth, brain, eyes and airways, each with a value of its
+/// own. `size` voxels a side; they are not cubes, for the box hugs the head. The same on every platform.
+Volume make_head(int size);
+
+/// What the materials of make_head are worth.
+struct HeadValues {
+    static constexpr float air = 0, skin = 0.2f, brain = 0.36f, flesh = 0.5f, eye = 0.6f, bone = 0.85f, tooth = 1;
+};
+
+}  // namespace sheer
