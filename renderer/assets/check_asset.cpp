@@ -6,6 +6,7 @@
 
 #include "renderer/assets/file_bytes.h"
 #include "renderer/assets/picture_file.h"
+#include "renderer/assets/read_volume.h"
 
 namespace sheer {
 
@@ -24,6 +25,17 @@ AssetKind picture_kind(const char* media_type, PictureFormat format) {
     return {media_type, "texture", check};
 }
 
+AssetKind nrrd_kind() {
+    return {"application/x-nrrd", "volume",
+            [](const std::filesystem::path& file) { return describe_nrrd(read_asset_bytes(file)); }};
+}
+
+/// The spec says what they hold, so there is nothing to check yet.
+AssetKind raw_volume_kind() {
+    return {"application/octet-stream", "volume",
+            [](const std::filesystem::path& file) { return json{{"bytes", read_asset_bytes(file).size()}}; }};
+}
+
 }  // namespace
 
 const std::vector<AssetKind>& asset_kinds() {
@@ -31,6 +43,8 @@ const std::vector<AssetKind>& asset_kinds() {
         picture_kind("image/png", PictureFormat::png),
         picture_kind("image/jpeg", PictureFormat::jpeg),
         picture_kind("image/x-exr", PictureFormat::exr),
+        nrrd_kind(),
+        raw_volume_kind(),
     };
     return kinds;
 }

@@ -2,11 +2,16 @@
 
 #include "renderer/assets/file_bytes.h"
 #include "renderer/assets/picture_file.h"
+#include "renderer/assets/read_volume.h"
 
 namespace sheer {
 
 Picture FileAssets::picture(const std::string& name, int width_px, int height_px) {
     return read_picture(read_asset_bytes(m_resolve(name)), width_px, height_px);
+}
+
+Volume FileAssets::volume(const std::string& name, const std::optional<RawVolume>& raw) {
+    return read_volume(read_asset_bytes(m_resolve(name)), raw);
 }
 
 FileAssets assets_in_folder(std::filesystem::path folder) {

@@ -6,7 +6,7 @@
 
 namespace sheer {
 
-/// Reads the files that a spec refers to: PNG, JPEG and OpenEXR pictures.
+/// Reads the files that a spec refers to: PNG, JPEG and OpenEXR pictures; NRRD and raw volumes.
 class FileAssets : public AssetReader {
   public:
     /// From the name in the spec to the file; throws AssetError for one that may not be read or is not there.
@@ -14,6 +14,7 @@ class FileAssets : public AssetReader {
 
     explicit FileAssets(Resolver resolve) : m_resolve(std::move(resolve)) {}
     Picture picture(const std::string& name, int width_px, int height_px) override;
+    Volume volume(const std::string& name, const std::optional<RawVolume>& raw) override;
 
   private:
     Resolver m_resolve;
