@@ -28,9 +28,11 @@ inline std::unique_ptr<gl::Context> make_context(const std::string& kind) {
 class Stage {
   public:
     Stage(gl::Context& context, const Spec& spec, PixelFormat format)
+        : Stage(context, spec, format, std::make_unique<NoAssets>()) {}
+    Stage(gl::Context& context, const Spec& spec, PixelFormat format, std::unique_ptr<AssetReader> assets)
         : m_context(context),
           m_timer(context),
-          m_scene(context.gl(), build_geometry(spec.scene, spec.image, m_assets), spec.scene),
+          m_scene(context.gl(), build_geometry(spec.scene, spec.image, *assets), spec.scene),
           m_target(context.gl(), spec.image, format) {}
 
     /// With other geometry than the spec's.
@@ -64,7 +66,6 @@ class Stage {
     }
 
   private:
-    NoAssets m_assets;
     gl::Context& m_context;
     gl::FrameTimer m_timer;
     Scene m_scene;

@@ -16,6 +16,16 @@ nlohmann::json foliage(int planes) {
     return {{"type", "foliage"}, {"trees", 2}, {"planes_per_tree", planes}, {"texture", {{"size", 32}}}};
 }
 
+nlohmann::json volume(int slices) {
+    return {{"type", "volume"}, {"slices", slices}, {"volume", {{"resolution", 32}}}};
+}
+
+/// Small enough for every method.
+nlohmann::json scene_of(const std::string& type) {
+    if (type == "particles") return particles(60);
+    return type == "foliage" ? foliage(30) : volume(50);
+}
+
 /// Geometry made by hand, drawn by `b2f` on black.
 class Hand {
   public:
@@ -125,7 +135,7 @@ TEST_P(Scenes3d, AreDrawnByEveryMethod) {
     const auto context = make_context(GetParam().context);
     nlohmann::json methods = nlohmann::json::array();
     for (const MethodInfo& info : all_methods()) methods.push_back(info.id);
-    const Spec spec = make_spec(GetParam().scene == "particles" ? particles(150) : foliage(30), methods, size_px);
+    const Spec spec = make_spec(scene_of(GetParam().scene), methods, size_px);
     Stage stage(*context, spec, spec.image.format);
     for (const MethodSpec& method : spec.methods) {
         SCOPED_TRACE(method.id);
@@ -149,15 +159,16 @@ TEST_P(Scenes3d, AreDrawnByEveryMethod) {
 /// Two references that share nothing but the scene.
 TEST_P(Scenes3d, ReferencesAgree) {
     const auto context = make_context(GetParam().context);
-    const Spec spec = make_spec(GetParam().scene == "particles" ? particles(60) : foliage(40),
-                                {{{"id", "exact"}, {"form", "lists"}}, "depth_peeling"}, size_px, "rgba32f");
+    const Spec spec = make_spec(scene_of(GetParam().scene), {{{"id", "exact"}, {"form", "lists"}}, "depth_peeling"},
+                                size_px, "rgba32f");
     Stage stage(*context, spec, PixelFormat::rgba32f);
     EXPECT_LE(greatest_difference(stage.picture(spec.methods[0]), stage.picture(spec.methods[1])), 2e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scenes3d,
-                         testing::Values(Case{"egl", "particles"}, Case{"egl", "foliage"}, Case{"osmesa", "particles"},
-                                         Case{"osmesa", "foliage"}),
+                         testing::Values(Case{"egl", "particles"}, Case{"egl", "foliage"}, Case{"egl", "volume"},
+                                         Case{"osmesa", "particles"}, Case{"osmesa", "foliage"},
+                                         Case{"osmesa", "volume"}),
                          [](const testing::TestParamInfo<Case>& row) {
                              return row.param.context + "_" + row.param.scene;
                          });

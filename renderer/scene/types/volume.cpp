@@ -180,17 +180,20 @@ Geometry build(const json& scene, const ImageSpec& image, AssetReader& assets) {
     return geometry;
 }
 
+/// Fields that have an error of their own are null here, or absent.
 void check(const json& scene, const std::string& pointer, std::vector<FieldError>& errors) {
     check_camera(scene, pointer, errors);
     const json& points = scene.at("transfer");
-    for (std::size_t i = 1; i < points.size(); ++i)
-        if (points[i].at("value") <= points[i - 1].at("value"))
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const json &last = points[i - 1].at("value"), &value = points[i].at("value");
+        if (last.is_number() && value.is_number() && value <= last)
             errors.push_back(
                 {pointer + "/transfer/" + std::to_string(i) + "/value", "must be over that of the point before"});
+    }
     const json &volume = scene.at("volume"), &raw = volume.at("raw");
     if (raw.is_null()) return;
     if (volume.at("data") == "head") errors.push_back({pointer + "/volume/raw", "is of no use to the built-in head"});
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; raw.at("size").is_array() && axis < 3; ++axis) {
         const auto side = raw.at("size")[axis].get<double>();
         if (std::floor(side) != side)
             errors.push_back({pointer + "/volume/raw/size/" + std::to_string(axis), "must be a whole number"});
