@@ -54,8 +54,8 @@ TEST(VolumeOpacity, OfAConstantVolumeIsThatOfItsDepthWhateverTheSlices) {
     const double alpha = 0.03, density = 0.5;
     const double left = std::pow(1 - alpha, density * 256);
     for (const int slices : {1, 7, 64, 300}) {
-        const Image image =
-            picture_of(scene_with(slices, density, {point(0.5, color, alpha)}), volume_of({1, 1, 1}, {128}));
+        const Image image = picture_of(scene_with(slices, density, nlohmann::json::array({point(0.5, color, alpha)})),
+                                       volume_of({1, 1, 1}, {128}));
         for (std::size_t channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(image.pixel(middle_px, middle_px)[channel],
                         color[channel] * (1 - left) + background[channel] * left, 2e-5)
@@ -68,7 +68,8 @@ TEST(VolumeSlices, CoverWhatTheCubeCovers) {
     constexpr int slices = 8;
     const double alpha = 0.2;
     const Image image =
-        picture_of(scene_with(slices, slices / 256.0, {point(0.5, {1, 1, 1}, alpha)}), volume_of({1, 1, 1}, {128}));
+        picture_of(scene_with(slices, slices / 256.0, nlohmann::json::array({point(0.5, {1, 1, 1}, alpha)})),
+                   volume_of({1, 1, 1}, {128}));
     std::array<bool, slices + 1> seen{};
     for (int y = 0; y < size_px; ++y)
         for (int x = 0; x < size_px; ++x) {
@@ -137,7 +138,7 @@ TEST(VolumeAxes, AreThoseOfTheScene) {
 TEST(VolumeSpacing, ShapesTheBox) {
     Volume volume = volume_of({2, 2, 2}, std::vector<std::uint8_t>(8, 255));
     volume.spacing = {2, 1, 4};
-    const Image image = picture_of(scene_with(32, 1, {point(1, {1, 1, 1}, 1)}), volume);
+    const Image image = picture_of(scene_with(32, 1, nlohmann::json::array({point(1, {1, 1, 1}, 1)})), volume);
     // The front is 4 away, and 0.5 and 0.25 to either side: an eighth and a sixteenth of half the picture.
     for (int y = 0; y < size_px; ++y)
         for (int x = 0; x < size_px; ++x) {
@@ -149,7 +150,7 @@ TEST(VolumeSpacing, ShapesTheBox) {
 
 /// Where nothing changes there is no boundary to light: the shader then gives 0.8 of the colour.
 TEST(VolumeLight, ChangesColoursNotOpacity) {
-    nlohmann::json scene = scene_with(16, 1, {point(0.5, {0.5, 0.5, 0.5}, 1)});
+    nlohmann::json scene = scene_with(16, 1, nlohmann::json::array({point(0.5, {0.5, 0.5, 0.5}, 1)}));
     scene["light"] = true;
     EXPECT_NEAR(picture_of(scene, volume_of({1, 1, 1}, {128})).pixel(middle_px, middle_px)[0], 0.4, 1e-6);
 }
@@ -180,11 +181,11 @@ TEST(VolumeOpaque, IsVeiledByWhatIsInFrontOfItAlone) {
     constexpr int slices = 50;
     const std::array<double, 3> color{0.1, 0.9, 0.2};
     const double alpha = 0.04;
-    nlohmann::json scene = scene_with(slices, slices / 256.0, {point(0.5, color, alpha)});
+    nlohmann::json scene = scene_with(slices, slices / 256.0, nlohmann::json::array({point(0.5, color, alpha)}));
     scene["frame"] = true;
     scene["camera"] = {{"eye", {0, 8, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"fov_y_deg", 20}};
     nlohmann::json clear = scene;
-    clear["transfer"] = {point(0.5, color, 0)};
+    clear["transfer"] = nlohmann::json::array({point(0.5, color, 0)});
     const Volume volume = volume_of({1, 1, 1}, {128});
     int above = 0;
     for (int i = 0; i < slices; ++i) above += 0.5 + (i + 0.5) * 2 / slices > 0.5 + 0.05;

@@ -96,11 +96,11 @@ void add_frame(Geometry& geometry, const Box& box) {
     const auto disc = [&](double from, double to, double from_radius, double to_radius) {
         add_limb(geometry, {0, from, 0}, {0, to, 0}, from_radius * width, to_radius * width, paint({0.30, 0.34, 0.40}));
     };
-    disc(bottom - 0.36, bottom - 0.28, 0.80, 0.80);
-    disc(bottom - 0.28, bottom - 0.04, 0.56, 0.42);
+    disc(bottom - 0.22, bottom - 0.15, 0.74, 0.74);
+    disc(bottom - 0.15, bottom - 0.04, 0.56, 0.46);
     disc(bottom - 0.04, bottom + 0.05, 0.62, 0.62);
     const auto on_ring = [&](const dvec2& around, double out) {
-        return box_middle + half * dvec3(1.16 * out * around.x, 0.47, 0.98 * out * around.y);
+        return box_middle + half * dvec3(1.1 * out * around.x, 0.47 - 0.06 * around.y, out * around.y);
     };
     const std::vector<dvec2> around = circle(64);
     for (std::size_t i = 0; i < around.size(); ++i) {
@@ -108,7 +108,7 @@ void add_frame(Geometry& geometry, const Box& box) {
         add_limb(geometry, from, to, 0.028, 0.028, paint({0.50, 0.53, 0.58}));
     }
     for (std::size_t i = 8; i < around.size(); i += 16)
-        add_limb(geometry, on_ring(around[i], 1.08), on_ring(around[i], 0.60), 0.026, 0.012, paint({0.80, 0.62, 0.26}));
+        add_limb(geometry, on_ring(around[i], 1.07), on_ring(around[i], 0.62), 0.026, 0.012, paint({0.80, 0.62, 0.26}));
 }
 
 glm::vec4 look_up(const json& points, double value) {
@@ -156,7 +156,7 @@ Geometry build(const json& scene, const ImageSpec& image, AssetReader& assets) {
     std::vector<Vertex> whole = geometry.vertices;
     for (unsigned i = 0; i < 8; ++i) whole.push_back({glm::vec3(box.corner(i)), {}, {}, 0});
     const Sphere bounds = bounding_sphere(whole);
-    const Camera camera = read_camera(scene.at("camera"), bounds, {-0.55, 0.16, 1}, aspect);
+    const Camera camera = read_camera(scene.at("camera"), bounds, {-0.55, 0.24, 1}, aspect);
     const glm::dmat4 view = camera.view();
     for (Vertex& vertex : geometry.vertices)
         vertex.position = glm::vec3(view * glm::dvec4(glm::dvec3(vertex.position), 1));
@@ -205,7 +205,7 @@ json usual_transfer() {
     const auto point = [](double value, const std::array<double, 3>& color, double alpha) -> json {
         return {{"value", value}, {"color", color}, {"alpha", alpha}};
     };
-    return {point(0.06, {0.95, 0.70, 0.56}, 0),    point(0.20, {0.95, 0.68, 0.54}, 0.08),
+    return {point(0.06, {0.95, 0.70, 0.56}, 0),    point(0.20, {0.95, 0.68, 0.54}, 0.11),
             point(0.27, {0.90, 0.58, 0.46}, 0),    point(0.30, {0.85, 0.45, 0.45}, 0),
             point(0.36, {0.88, 0.50, 0.48}, 0.06), point(0.42, {0.85, 0.50, 0.48}, 0),
             point(0.56, {0.90, 0.90, 0.90}, 0),    point(0.60, {0.90, 0.92, 0.95}, 0.02),
