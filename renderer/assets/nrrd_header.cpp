@@ -53,11 +53,22 @@ Number number_in(std::string_view word, const std::string& field) {
     return number;
 }
 
-std::vector<std::string_view> three_in(std::string_view value, const std::string& field, std::string_view separators) {
-    auto words = split(value, separators);
-    if (words.size() != 3)
-        throw AssetError(fmt::format("the NRRD field \"{}\" must have three entries, not {}", field, words.size()));
-    return words;
+/// Throws AssetError if there are not three.
+std::vector<std::string_view> three(std::vector<std::string_view> entries, const std::string& field) {
+    if (entries.size() != 3)
+        throw AssetError(fmt::format("the NRRD field \"{}\" must have three entries, not {}", field, entries.size()));
+    return entries;
+}
+
+/// What stands in each pair of parentheses.
+std::vector<std::string_view> groups_in(std::string_view text) {
+    std::vector<std::string_view> groups;
+    while (true) {
+        const std::size_t open = text.find('('), close = text.find(')');
+        if (open == std::string_view::npos || close == std::string_view::npos || close < open) return groups;
+        groups.push_back(text.substr(open + 1, close - open - 1));
+        text.remove_prefix(close + 1);
+    }
 }
 
 /// Fields by their names in lower case without spaces, as some have been spelt both with and without.
@@ -163,7 +174,7 @@ class HeaderReader {
     }
 
     glm::ivec3 size() const {
-        const auto words = three_in(required("sizes"), "sizes", spaces);
+        const auto words = three(split(required("sizes"), spaces), "sizes");
         return {number_in<int>(words[0], "sizes"), number_in<int>(words[1], "sizes"),
                 number_in<int>(words[2], "sizes")};
     }
@@ -173,12 +184,12 @@ class HeaderReader {
         std::string field;
         if (m_fields.contains("spacedirections")) {
             field = "spacedirections";
-            const auto directions = three_in(required(field), field, "()");
+            const auto directions = three(groups_in(required(field)), field);
             for (int axis = 0; axis < 3; ++axis)
                 spacing[axis] = length_of(directions[static_cast<std::size_t>(axis)], field);
         } else if (m_fields.contains("spacings")) {
             field = "spacings";
-            const auto words = three_in(required(field), field, spaces);
+            const auto words = three(split(required(field), spaces), field);
             for (int axis = 0; axis < 3; ++axis)
                 spacing[axis] = std::abs(number_in<double>(words[static_cast<std::size_t>(axis)], field));
         }
@@ -190,7 +201,7 @@ class HeaderReader {
 
     static double length_of(std::string_view direction, const std::string& field) {
         double squares = 0;
-        for (const std::string_view word : three_in(direction, field, ", \t")) {
+        for (const std::string_view word : three(split(direction, ", \t"), field)) {
             const auto component = number_in<double>(word, field);
             squares += component * component;
         }
