@@ -214,12 +214,14 @@ export function new_entry(fields) {
   return Object.fromEntries(fields.filter((field) => field.required).map((field) => [field.name, first_value(field)]));
 }
 
+/** A list that is not in the spec stands for the usual entries; they come into the spec to be changed. */
 function list_field(param, path, model) {
   const rows = el("ol", { class: "rows" });
   const entries = () => {
-    const stored = model.get(path) ?? param.default;
+    const stored = model.get(path);
     return Array.isArray(stored) ? stored : [];
   };
+  const is_usual = () => model.get(path) === undefined && param.default?.length > 0;
   const put = (next) => {
     model.set(path, next);
     draw();
@@ -230,7 +232,14 @@ function list_field(param, path, model) {
       { type: "button", class: "quiet small", "aria-label": label, title: label, disabled, onclick: action },
       text,
     );
-  const draw = () =>
+  const more = el("button", {
+    type: "button",
+    class: "small",
+    onclick: () => put(is_usual() ? structuredClone(param.default) : [...entries(), new_entry(param.fields ?? [])]),
+  });
+  const draw = () => {
+    const what = words(param.name).toLowerCase();
+    more.textContent = is_usual() ? `Change the ${param.default.length} usual entries of ${what}` : `Add to ${what}`;
     set_children(
       rows,
       entries().map((_, index) => {
@@ -257,13 +266,9 @@ function list_field(param, path, model) {
         );
       }),
     );
+  };
   draw();
-  const add = el(
-    "button",
-    { type: "button", class: "small", onclick: () => put([...entries(), new_entry(param.fields ?? [])]) },
-    `Add to ${words(param.name).toLowerCase()}`,
-  );
-  return field_frame(param, path, el("div", {}, rows, add), { group: true });
+  return field_frame(param, path, el("div", {}, rows, more), { group: true });
 }
 
 /** Any JSON: text that is not JSON is taken as a text. */
