@@ -32,8 +32,9 @@ AssetKind nrrd_kind() {
 
 /// The spec says what they hold, so there is nothing to check yet.
 AssetKind raw_volume_kind() {
-    return {"application/octet-stream", "volume",
-            [](const std::filesystem::path& file) { return json{{"bytes", read_asset_bytes(file).size()}}; }};
+    return {"application/octet-stream", "volume", [](const std::filesystem::path& file) {
+                return json{{"bytes", read_asset_bytes(file).size()}};
+            }};
 }
 
 }  // namespace
