@@ -110,3 +110,22 @@ page_test("a camera is in the spec while its box is ticked", {}, async (page) =>
   await box.uncheck();
   assert.equal(await camera(), undefined);
 });
+
+page_test("the usual entries of a list come into the spec to be changed", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/`);
+  await page.locator(`${field("/scene/type")} select`).selectOption("volume");
+  const transfer = async () => {
+    await page.getByRole("tab", { name: "Spec" }).click();
+    const spec = JSON.parse(await page.getByLabel("Spec as JSON").inputValue());
+    await page.getByRole("tab", { name: "Form" }).click();
+    return spec.scene.transfer;
+  };
+  assert.equal(await transfer(), undefined);
+  await page.getByRole("button", { name: /^Change the \d+ usual entries of transfer$/ }).click();
+  const usual = await transfer();
+  assert.ok(usual.length > 2);
+  assert.deepEqual(Object.keys(usual[0]).sort(), ["alpha", "color", "value"]);
+  await page.getByRole("button", { name: "Remove Transfer 1", exact: true }).click();
+  assert.deepEqual(await transfer(), usual.slice(1));
+  await assert_accessible(page, "a form with a list");
+});
