@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     sheer::cli::add_docs(app, exit_code);
     sheer::cli::add_render(app, exit_code);
     sheer::cli::add_worker(app, exit_code);
+    sheer::cli::add_check_asset(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

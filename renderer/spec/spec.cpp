@@ -91,6 +91,8 @@ std::vector<std::string> metric_names() {
 
 class SpecReader {
   public:
+    explicit SpecReader(const AssetRule& rule) : m_rule(rule) {}
+
     Spec read(const json& document) {
         if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "a spec must be a JSON object"}});
         Spec spec;
@@ -152,6 +154,13 @@ class SpecReader {
         if (info->check) info->check(spec.scene, "/scene", m_errors);
         spec.scene["type"] = info->id;
         spec.normalised["scene"] = spec.scene;
+        check_assets(spec.scene);
+    }
+
+    void check_assets(const json& scene) {
+        if (!m_rule) return;
+        for (const AssetReference& reference : scene_assets(scene))
+            if (const std::string wrong = m_rule(reference); !wrong.empty()) error(reference.pointer, wrong);
     }
 
     /// `value` is an id, or an object with id, label and parameters.
@@ -261,13 +270,14 @@ class SpecReader {
         }
     }
 
+    const AssetRule& m_rule;
     std::vector<FieldError> m_errors;
 };
 
 }  // namespace
 
-Spec parse_spec(const json& document) {
-    return SpecReader().read(document);
+Spec parse_spec(const json& document, const AssetRule& rule) {
+    return SpecReader(rule).read(document);
 }
 
 Spec parse_spec_text(const std::string& text) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -54,8 +55,12 @@ struct Spec {
     std::string canonical_text() const { return normalised.dump(); }
 };
 
-/// Throws SpecError with every wrong field.
-Spec parse_spec(const nlohmann::json& document);
+struct AssetReference;
+/// What is wrong with a file that a spec refers to, as a sentence on its field; "" for nothing.
+using AssetRule = std::function<std::string(const AssetReference& reference)>;
+
+/// Throws SpecError with every wrong field, those that `rule` objects to among them.
+Spec parse_spec(const nlohmann::json& document, const AssetRule& rule = {});
 /// The same from text; text that is not JSON gives one error at pointer "" that says where it breaks.
 Spec parse_spec_text(const std::string& text);
 

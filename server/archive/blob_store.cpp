@@ -89,14 +89,14 @@ BlobStore::BlobStore(fs::path folder) : m_folder(std::move(folder)) {
     make_folder(m_folder);
 }
 
-fs::path BlobStore::path_of(const std::string& sha256) const {
+fs::path blob_path(const fs::path& folder, const std::string& sha256) {
     if (!is_sha256(sha256)) throw StoreError("not a SHA-256: " + sha256);
-    return m_folder / sha256.substr(0, 2) / sha256;
+    return folder / sha256.substr(0, 2) / sha256;
 }
 
 void BlobStore::put(const std::string& sha256, const std::string& bytes) {
     if (sha256_hex(bytes) != sha256) throw StoreError("the bytes of blob " + sha256 + " have another hash");
-    const fs::path place = path_of(sha256);
+    const fs::path place = blob_path(m_folder, sha256);
     if (fs::exists(place)) return;
     make_folder(place.parent_path());
     std::string temporary_path = place.string() + temporary_suffix;
@@ -110,14 +110,14 @@ void BlobStore::put(const std::string& sha256, const std::string& bytes) {
 
 std::optional<fs::path> BlobStore::find(const std::string& sha256) const {
     if (!is_sha256(sha256)) return std::nullopt;
-    fs::path path = path_of(sha256);
+    fs::path path = blob_path(m_folder, sha256);
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return std::nullopt;
     return path;
 }
 
 void BlobStore::remove(const std::string& sha256) {
-    const fs::path path = path_of(sha256);
+    const fs::path path = blob_path(m_folder, sha256);
     if (unlink(path.c_str()) != 0 && errno != ENOENT) fail("cannot remove", path);
 }
 

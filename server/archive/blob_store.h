@@ -22,10 +22,11 @@ class BlobStore {
     void remove_leftovers(std::chrono::seconds age);
 
   private:
-    std::filesystem::path path_of(const std::string& sha256) const;
-
     std::filesystem::path m_folder;
 };
+
+/// Where the blob of this hash lies in a BlobStore's folder. Throws StoreError if `sha256` is not one.
+std::filesystem::path blob_path(const std::filesystem::path& folder, const std::string& sha256);
 
 /// Whether `text` is 64 digits of lower-case hexadecimal.
 bool is_sha256(const std::string& text);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "embedded_server_files.h"
 #include "server/archive/sqlite_guard.h"
 #include "server/jobs/facets.h"
@@ -13,7 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int schema_version = 1;
+// What makes an archive of version N out of one of version N-1.
+constexpr std::array migrations = {"schema.sql", "assets.sql"};
 constexpr int busy_timeout_ms = 10'000;
 constexpr std::chrono::hours leftover_age{1};
 
@@ -31,10 +34,10 @@ SQLite::Database open_database(const fs::path& folder) {
     }
 }
 
-std::string schema_text() {
+std::string sql_file(const std::string& name) {
     for (const EmbeddedFile& file : embedded_server_files())
-        if (file.path == "schema.sql") return std::string(file.bytes);
-    throw StoreError("the program was built without schema.sql");
+        if (file.path == name) return std::string(file.bytes);
+    throw StoreError("the program was built without " + name);
 }
 
 std::optional<std::int64_t> optional_int(const SQLite::Column& column) {
@@ -59,21 +62,23 @@ SqliteStore::SqliteStore(const fs::path& folder, LeaseRules rules, ClockMs clock
     : m_rules(rules),
       m_clock(std::move(clock)),
       m_blobs(folder / "blobs"),
+      m_assets(folder / "assets"),
       m_database(open_database(folder)),
       m_watch(open_database(folder)) {
     migrate();
     m_blobs.remove_leftovers(leftover_age);
+    m_assets.remove_leftovers(leftover_age);
 }
 
 void SqliteStore::migrate() {
     transacted(m_mutex, m_database, [&] {
-        const int version = m_database.execAndGet("PRAGMA user_version").getInt();
-        if (version == schema_version) return;
-        if (version != 0)
+        const auto version = m_database.execAndGet("PRAGMA user_version").getInt64();
+        if (version < 0 || static_cast<std::size_t>(version) > migrations.size())
             throw StoreError(
-                fmt::format("the archive has version {}, this program knows version {}", version, schema_version));
-        m_database.exec(schema_text());
-        m_database.exec(fmt::format("PRAGMA user_version = {}", schema_version));
+                fmt::format("the archive has version {}, this program knows version {}", version, migrations.size()));
+        for (auto i = static_cast<std::size_t>(version); i < migrations.size(); ++i)
+            m_database.exec(sql_file(migrations[i]));
+        m_database.exec(fmt::format("PRAGMA user_version = {}", migrations.size()));
     });
 }
 

@@ -11,7 +11,8 @@
 
 namespace sheer {
 
-/// The store in one folder of this machine: FOLDER/archive.sqlite (WAL, synchronous=FULL) and FOLDER/blobs.
+/// The store in one folder of this machine: FOLDER/archive.sqlite (WAL, synchronous=FULL), FOLDER/blobs and
+/// FOLDER/assets.
 ///
 /// A call takes well under a millisecond, except that one that writes waits for the disk; so callers keep it off the
 /// thread that serves connections.
@@ -25,6 +26,10 @@ class SqliteStore : public Store {
     ReportPage list(const ListFilter& filter) override;
     RemoveResult remove(const std::string& id) override;
     std::optional<Blob> find_blob(const std::string& sha256) override;
+    void add_asset(const Asset& asset, const std::string& bytes) override;
+    std::optional<Asset> find_asset(const std::string& sha256) override;
+    std::vector<Asset> list_assets(int limit) override;
+    RemoveAssetResult remove_asset(const std::string& sha256) override;
     std::int64_t change_counter() override;
     std::optional<std::int64_t> last_rendered_ms() override;
 
@@ -40,6 +45,7 @@ class SqliteStore : public Store {
 
   private:
     void migrate();
+    Asset read_asset(SQLite::Statement& row) const;
     void put_blobs(const std::vector<BlobFile>& blobs);
     void insert_report(const NewReport& report);
     void remove_blobs(const std::vector<std::string>& candidates);
@@ -52,7 +58,7 @@ class SqliteStore : public Store {
 
     LeaseRules m_rules;
     ClockMs m_clock;
-    BlobStore m_blobs;
+    BlobStore m_blobs, m_assets;
     std::mutex m_mutex;  ///< guards m_database
     SQLite::Database m_database;
     std::mutex m_watch_mutex;  ///< guards m_watch

@@ -12,9 +12,10 @@ inline constexpr int exit_no_server = 4;
 
 /// Each adds its subcommand to `app`; when it is chosen it runs and stores the exit code.
 void add_compare(CLI::App& app, int& exit_code);
-void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, devices
-void add_docs(CLI::App& app, int& exit_code);     ///< for ./dev docs; not shown in the help
-void add_render(CLI::App& app, int& exit_code);   ///< the worker's child; not shown in the help
+void add_catalog(CLI::App& app, int& exit_code);      ///< methods, scenes, devices
+void add_docs(CLI::App& app, int& exit_code);         ///< for ./dev docs; not shown in the help
+void add_render(CLI::App& app, int& exit_code);       ///< the worker's child; not shown in the help
+void add_check_asset(CLI::App& app, int& exit_code);  ///< the service's child; not shown in the help
 void add_serve(CLI::App& app, int& exit_code);
 void add_worker(CLI::App& app, int& exit_code);  ///< started by serve; not shown in the help
 

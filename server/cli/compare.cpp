@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "renderer/assets/file_assets.h"
 #include "renderer/compare.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
@@ -65,7 +66,7 @@ int run(const Options& options) {
     {
         ProgressBar bar;
         const auto context = gl::create_context(options.context);
-        NoAssets assets;
+        FileAssets assets = assets_in_folder(std::filesystem::path(options.spec).parent_path());
         const Comparison comparison = compare(
             spec, *context, assets, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); });
         if (folder) {

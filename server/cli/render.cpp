@@ -4,9 +4,11 @@
 
 #include <cstdio>
 
+#include "renderer/assets/file_assets.h"
 #include "renderer/compare.h"
 #include "renderer/frame/target.h"
 #include "renderer/report/report.h"
+#include "server/archive/blob_store.h"
 #include "server/cli/commands.h"
 #include "server/cli/failure.h"
 #include "server/cli/rendering.h"
@@ -18,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 struct Options {
-    std::string spec, out;
+    std::string spec, out, assets;
     bool probe = false;
     gl::ContextRequest context;
 };
@@ -42,13 +44,23 @@ int probe(gl::Context& context) {
     return exit_ok;
 }
 
+/// Uploaded files by their SHA-256, and nothing else.
+FileAssets::Resolver uploads_in(const std::filesystem::path& folder) {
+    return [folder](const std::string& name) {
+        if (folder.empty() || !is_sha256(name)) throw AssetError("this is not the SHA-256 of an uploaded file");
+        std::filesystem::path file = blob_path(folder, name);
+        if (!std::filesystem::exists(file)) throw AssetError("the asset with this SHA-256 is not there any more");
+        return file;
+    };
+}
+
 int run(const Options& options) {
     try {
         if (options.probe) return probe(*gl::create_context(options.context));
         const std::string created_at = utc_now();
         const Spec spec = parse_spec_text(read_text(options.spec));
         const auto context = gl::create_context(options.context);
-        NoAssets assets;
+        FileAssets assets(uploads_in(options.assets));
         const Comparison comparison = compare(spec, *context, assets, [](double fraction, const std::string& stage) {
             say({{"progress", fraction}, {"stage", stage}});
         });
@@ -71,6 +83,7 @@ void add_render(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<Options>();
     command->add_option("spec", options->spec, "The spec, a JSON file");
     command->add_option("--out", options->out, "Folder for report.json and the pictures, named by content");
+    command->add_option("--assets", options->assets, "Folder of the uploaded files, named by content");
     command->add_flag("--probe", options->probe, "Render one pixel and nothing else");
     add_context_options(*command, options->context);
     command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -2,6 +2,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -51,6 +52,12 @@ void serve(const ServeOptions& options) {
                           .ids = ids,
                           .clock = system_now_ms,
                           .list_devices = [&devices] { return devices.get(); },
+                          .check_upload =
+                              [&config](const std::string& bytes, const std::string& media_type) {
+                                  return check_upload(bytes, media_type, config.upload_check);
+                              },
+                          .max_asset_bytes = config.max_asset_bytes,
+                          .max_checks = std::max(1, config.http.threads / 2),
                           .max_queued = config.max_queued,
                           .max_wait = config.max_wait,
                           .ready_within = config.ready_within};
@@ -58,6 +65,7 @@ void serve(const ServeOptions& options) {
                                         http::make_router(service));
     http::Server server(
         endpoint, config.http, [&](http::Request request) { return application.answer(std::move(request)); },
+        [&](std::string_view method, std::string_view target) { return application.body_limit(method, target); },
         [&store] { return store.change_counter(); });
     Supervisor workers(store, supervisor_options(config, options));
     fmt::print("Sheer listens on {}\n", http::url_of(server.endpoint()));

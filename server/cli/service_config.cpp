@@ -49,6 +49,14 @@ std::vector<Param> jobs_fields() {
                            rules.max_attempts, 1, 10)};
 }
 
+std::vector<Param> assets_fields() {
+    const UploadCheckOptions check;
+    return {Param::integer("max_bytes", "size of an uploaded file", "byte", 64 << 20, 1024, gibibyte),
+            Param::integer("check_memory_bytes", "address space of the process that reads an upload; 0 for no limit",
+                           "byte", static_cast<long long>(check.memory_limit_bytes), 0, 1024 * gibibyte),
+            seconds("check_time_s", "for reading an upload", 20, 3600)};
+}
+
 std::vector<Param> worker_fields() {
     return {Param::integer("memory_limit_bytes", "address space of a renderer; 0 for no limit", "byte",
                            static_cast<long long>(8 * gibibyte), 0, 1024 * gibibyte),
@@ -101,6 +109,7 @@ std::vector<Param> service_config_fields() {
             std::move(hosts),
             Param::object("http", "what connections may take", http_fields()),
             Param::object("jobs", "the queue", jobs_fields()),
+            Param::object("assets", "uploaded files", assets_fields()),
             Param::object("worker", "the processes that render", worker_fields())};
 }
 
@@ -122,6 +131,9 @@ ServiceConfig read_service_config(const json& document) {
     config.leases = {.lease_ms = ms_of(read["jobs"]["lease_s"]).count(),
                      .heartbeat_ms = ms_of(read["jobs"]["heartbeat_s"]).count(),
                      .max_attempts = read["jobs"]["max_attempts"]};
+    config.max_asset_bytes = read["assets"]["max_bytes"];
+    config.upload_check.memory_limit_bytes = read["assets"]["check_memory_bytes"];
+    config.upload_check.time_limit = ms_of(read["assets"]["check_time_s"]);
     config.worker.rules = config.leases;
     config.worker.memory_limit_bytes = read["worker"]["memory_limit_bytes"];
     config.worker.time_limit = ms_of(read["worker"]["time_limit_s"]);

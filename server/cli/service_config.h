@@ -7,6 +7,7 @@
 #include "renderer/spec/param.h"
 #include "server/http/limits.h"
 #include "server/jobs/lease_rules.h"
+#include "server/worker/upload_check.h"
 #include "server/worker/worker.h"
 
 namespace sheer::cli {
@@ -18,6 +19,8 @@ struct ServiceConfig {
     int workers = 1;
     std::set<std::string> allowed_hosts;
     http::Limits http;
+    std::size_t max_asset_bytes = 0;
+    UploadCheckOptions upload_check;
     std::size_t max_queued = 0;
     std::chrono::seconds max_wait{};
     std::chrono::seconds ready_within{};

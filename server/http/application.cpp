@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "server/http/problem.h"
 #include "server/http/text.h"
 
@@ -34,7 +36,28 @@ Result caught(const Request& request, const Work& work) {
     }
 }
 
+/// JSON may come without a type. Other bodies may not: their type says how they are read.
+void check_body_type(const Route& route, const std::optional<std::string>& content_type) {
+    const bool json_expected = !route.body_schema.empty();
+    if (json_expected && (!content_type || is_json_type(*content_type))) return;
+    const std::string type = media_type_of(content_type.value_or(""));
+    if (!json_expected &&
+        (route.body_types.empty() || std::ranges::find(route.body_types, type) != route.body_types.end()))
+        return;
+    const std::string wanted =
+        json_expected ? "application/json" : fmt::format("{}", fmt::join(route.body_types, ", "));
+    throw Problem(415, fmt::format("The body must have the type {}{}.", wanted,
+                                   content_type ? ", not " + *content_type : "; Content-Type is missing"))
+        .with("Accept", wanted);
+}
+
 }  // namespace
+
+std::optional<std::uint64_t> Application::body_limit(std::string_view method, std::string_view target) const {
+    const Match match = m_router.match(method, target.substr(0, target.find('?')));
+    if (match.route == nullptr || match.route->body_bytes == 0) return std::nullopt;
+    return match.route->body_bytes;
+}
 
 Answer Application::answer(Request request) const {
     Answer answer = caught<Answer>(request, [&] { return handle(request); });
@@ -71,10 +94,7 @@ Answer Application::handle(Request& request) const {
     request.path_values = std::move(match.path_values);
     request.query =
         read_query(question == std::string_view::npos ? "" : target.substr(question + 1), match.route->query);
-    const auto content_type = request.headers.find("Content-Type");
-    if (!match.route->body_schema.empty() && content_type && !is_json_type(*content_type))
-        throw Problem(415, "The body must be application/json, not " + *content_type + ".")
-            .with("Accept", "application/json");
+    check_body_type(*match.route, request.headers.find("Content-Type"));
     return match.route->handle(request);
 }
 

@@ -11,6 +11,8 @@ class Application {
     Application(Guard guard, Router router) : m_guard(std::move(guard)), m_router(std::move(router)) {}
     /// Never throws: what goes wrong is a problem. HEAD is answered like GET; the sender leaves out the body.
     Answer answer(Request request) const;
+    /// The longest body that the route of this request takes, or nothing if it has no limit of its own.
+    std::optional<std::uint64_t> body_limit(std::string_view method, std::string_view target) const;
 
   private:
     Answer handle(Request& request) const;

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "renderer/report/report.h"
+#include "renderer/spec/param.h"
 #include "renderer/spec/spec.h"
+#include "server/archive/blob_store.h"
 #include "server/http/application.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
@@ -27,9 +29,23 @@ std::optional<IdempotencyKey> idempotency_key(const Request& request, const nloh
     return IdempotencyKey{*key, sha256_hex(document.dump())};
 }
 
+/// Over HTTP a file is an uploaded one, never a path.
+AssetRule asset_rule(Service& service) {
+    return [&service](const AssetReference& reference) -> std::string {
+        if (!is_sha256(reference.name))
+            return fmt::format("must be a built-in name or the SHA-256 of an uploaded {}, in 64 lower-case hex digits",
+                               reference.type);
+        const auto asset = service.store.find_asset(reference.name);
+        if (!asset) return "there is no asset with this SHA-256; POST /api/v1/assets takes one";
+        if (asset->type != reference.type)
+            return fmt::format("this asset is a {} ({}), not a {}", asset->type, asset->media_type, reference.type);
+        return "";
+    };
+}
+
 ReportRecord submit(Service& service, const Request& request) {
     const nlohmann::json document = json_body(request);
-    const Spec spec = parse_spec(document);
+    const Spec spec = parse_spec(document, asset_rule(service));
     NewReport report{.id = service.ids.next(), .spec = spec.canonical_text()};
     report.spec_sha256 = sha256_hex(report.spec);
     report.idempotency = idempotency_key(request, document);
@@ -81,8 +97,9 @@ Answer post_report(Service& service, const Request& request) {
     return waiting;
 }
 
-Answer validate_spec(const Request& request) {
-    return text_response(200, parse_spec(json_body(request)).canonical_text(), "application/json");
+Answer validate_spec(Service& service, const Request& request) {
+    const Spec spec = parse_spec(json_body(request), asset_rule(service));
+    return text_response(200, spec.canonical_text(), "application/json");
 }
 
 }  // namespace
@@ -113,7 +130,7 @@ std::vector<Route> submit_routes(Service& service) {
          .headers = {},
          .body_schema = "Spec",
          .replies = {{200, "The normalised spec", "application/json", "Spec"}, bad_spec},
-         .handle = validate_spec},
+         .handle = [&service](const Request& request) { return validate_spec(service, request); }},
     };
 }
 

@@ -53,6 +53,13 @@ json parameters_of(const Route& route) {
     return parameters;
 }
 
+json request_body(const Route& route) {
+    json types = json::object();
+    if (!route.body_schema.empty()) types = content("application/json", route.body_schema);
+    for (const std::string& type : route.body_types) types[type] = {{"schema", json::object()}};
+    return {{"required", true}, {"content", types}};
+}
+
 json operation_of(const Route& route) {
     json operation = {{"operationId", route.id}, {"summary", route.summary}, {"responses", json::object()}};
     if (json parameters = parameters_of(route); !parameters.empty()) operation["parameters"] = parameters;
@@ -63,9 +70,9 @@ json operation_of(const Route& route) {
         if (!reply.media_type.empty()) response["content"] = content(reply.media_type, reply.schema);
     }
     if (!route.query.empty()) responses["400"] = error_reply("The query is wrong");
-    if (!route.body_schema.empty()) {
-        operation["requestBody"] = {{"required", true}, {"content", content("application/json", route.body_schema)}};
-        responses["400"] = error_reply("The body is not JSON");
+    if (!route.body_schema.empty() || !route.body_types.empty()) {
+        operation["requestBody"] = request_body(route);
+        if (!route.body_schema.empty()) responses["400"] = error_reply("The body is not JSON");
         responses["413"] = error_reply("The body is too long");
         responses["415"] = error_reply("The body has another type");
     }
@@ -127,6 +134,14 @@ json list_schema() {
                          {"reports", "next_cursor"});
 }
 
+json asset_schema() {
+    json properties = {{"bytes", {{"type", "integer"}}}, {"created_at", {{"type", "string"}, {"format", "date-time"}}}};
+    for (const char* name : {"sha256", "type", "media_type", "name", "url"}) properties[name] = text_schema();
+    json schema = object_schema(properties, {"sha256", "type", "media_type", "name", "bytes", "created_at", "url"});
+    schema["description"] = "and what the check of its kind found, such as width and height of a picture";
+    return schema;
+}
+
 json problem_schema() {
     const json error = object_schema({{"pointer", text_schema()}, {"detail", text_schema()}}, {"pointer", "detail"});
     return object_schema({{"type", text_schema()},
@@ -143,6 +158,8 @@ json schemas() {
     return {{"Spec", spec},
             {"Report", report_schema()},
             {"ReportList", list_schema()},
+            {"Asset", asset_schema()},
+            {"AssetList", object_schema({{"assets", {{"type", "array"}, {"items", reference("Asset")}}}}, {"assets"})},
             {"Problem", problem_schema()},
             {"Catalog", {{"type", "array"}, {"items", {{"type", "object"}}}}},
             {"Health", object_schema({{"status", text_schema()}}, {"status"})}};
@@ -166,7 +183,7 @@ json openapi_document(const std::vector<Route>& routes) {
 
 Router make_router(Service& service) {
     Router router;
-    for (auto* routes : {submit_routes, report_routes, archive_routes, catalog_routes, health_routes})
+    for (auto* routes : {submit_routes, report_routes, archive_routes, asset_routes, catalog_routes, health_routes})
         router.add(routes(service));
     Route openapi{.method = "GET",
                   .pattern = "/api/v1/openapi.json",

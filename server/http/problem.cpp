@@ -9,6 +9,7 @@ using nlohmann::json;
 const char* status_phrase(int status) {
     static const std::map<int, const char*> phrases{{100, "Continue"},
                                                     {200, "OK"},
+                                                    {201, "Created"},
                                                     {202, "Accepted"},
                                                     {204, "No Content"},
                                                     {304, "Not Modified"},

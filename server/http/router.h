@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -32,9 +33,11 @@ struct Route {
     std::string summary;
     std::vector<Param> query;
     std::vector<HeaderField> headers;
-    std::string body_schema;  ///< component that the JSON body must fit; "" for no body
+    std::string body_schema;  ///< component that the JSON body must fit; "" for no JSON body
     std::vector<Reply> replies;
     Handler handle;
+    std::vector<std::string> body_types;  ///< media types of a body that is not JSON
+    std::uint64_t body_bytes = 0;         ///< longest body; 0: what the service allows any
 };
 
 struct Match {

@@ -67,11 +67,13 @@ std::string url_of(const Endpoint& endpoint) {
 
 class Server::Impl {
   public:
-    Impl(const Endpoint& endpoint, const Limits& limits, Answerer answer, std::function<std::int64_t()> change_counter)
+    Impl(const Endpoint& endpoint, const Limits& limits, Answerer answer, BodyLimit body_limit,
+         std::function<std::int64_t()> change_counter)
         : m_limits(limits),
           m_changes(m_io, std::move(change_counter)),
           m_context{.limits = m_limits,
                     .answer = std::move(answer),
+                    .body_limit = std::move(body_limit),
                     .pool = m_pool,
                     .changes = m_changes,
                     .sessions = {},
@@ -153,9 +155,10 @@ class Server::Impl {
     asio::steady_timer m_stop_timer;
 };
 
-Server::Server(const Endpoint& endpoint, const Limits& limits, Answerer answer,
+Server::Server(const Endpoint& endpoint, const Limits& limits, Answerer answer, BodyLimit body_limit,
                std::function<std::int64_t()> change_counter) try
-    : m_impl(std::make_unique<Impl>(endpoint, limits, std::move(answer), std::move(change_counter))) {
+    : m_impl(std::make_unique<Impl>(endpoint, limits, std::move(answer), std::move(body_limit),
+                                    std::move(change_counter))) {
 } catch (const boost::system::system_error& error) {
     throw std::runtime_error(
         fmt::format("cannot listen on {}:{}: {}", endpoint.address, endpoint.port, error.code().message()));

@@ -7,6 +7,7 @@
 #include "server/jobs/clock.h"
 #include "server/jobs/report_id.h"
 #include "server/jobs/store.h"
+#include "server/worker/upload_check.h"
 
 namespace sheer::http {
 
@@ -17,6 +18,10 @@ struct Service {
     ClockMs clock;
     /// `sheer devices --json`; throws std::exception if it fails.
     std::function<nlohmann::json()> list_devices;
+    /// Reads an upload whole; see check_upload.
+    std::function<UploadVerdict(const std::string& bytes, const std::string& media_type)> check_upload;
+    std::size_t max_asset_bytes = std::size_t{64} << 20;
+    int max_checks = 2;  ///< uploads that are read at a time
     std::size_t max_queued = 100;
     std::chrono::seconds max_wait{300};     ///< what `Prefer: wait` is cut to
     std::chrono::seconds ready_within{90};  ///< how long after its last rendering the service still counts as ready
@@ -26,6 +31,7 @@ struct Service {
 std::vector<Route> submit_routes(Service& service);   ///< POST /reports, /specs/validate
 std::vector<Route> report_routes(Service& service);   ///< one report
 std::vector<Route> archive_routes(Service& service);  ///< the list of reports, the pictures
+std::vector<Route> asset_routes(Service& service);    ///< uploaded files
 std::vector<Route> catalog_routes(Service& service);  ///< /methods, /scenes, /devices
 std::vector<Route> health_routes(Service& service);   ///< /healthz, /readyz
 std::vector<Route> page_routes();                     ///< the page at /

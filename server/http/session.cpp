@@ -150,8 +150,10 @@ class TcpSession : public Session {
 
     asio::awaitable<beast::error_code> read_body(Parser& parser) {
         const auto length = parser.content_length();
-        if (length && *length > m_limits.body_bytes) co_return bhttp::error::body_limit;
-        parser.body_limit(m_limits.body_bytes);
+        const std::string_view method = parser.get().method_string(), target = parser.get().target();
+        const std::uint64_t limit = m_context.body_limit(method, target).value_or(m_limits.body_bytes);
+        if (length && *length > limit) co_return bhttp::error::body_limit;
+        parser.body_limit(limit);
         if (equal_ignoring_case(std::string(parser.get()[bhttp::field::expect]), "100-continue")) {
             const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
             const bool sent = co_await write_text(go_on);

@@ -8,6 +8,7 @@
 #include "server/http/changes.h"
 #include "server/http/limits.h"
 #include "server/http/message.h"
+#include "server/http/server.h"
 
 namespace sheer::http {
 
@@ -17,6 +18,7 @@ class Session;
 struct SessionContext {
     const Limits& limits;
     std::function<Answer(Request)> answer;  ///< called on the pool
+    BodyLimit body_limit;
     boost::asio::thread_pool& pool;
     Changes& changes;
     std::set<Session*> sessions;

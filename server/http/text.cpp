@@ -98,9 +98,14 @@ bool names_etag(std::string_view if_none_match, std::string_view etag) {
     });
 }
 
-bool is_json_type(std::string_view content_type) {
+std::string media_type_of(std::string_view content_type) {
     std::string type(split(content_type, ';').front());
     std::ranges::transform(type, type.begin(), lower);
+    return type;
+}
+
+bool is_json_type(std::string_view content_type) {
+    const std::string type = media_type_of(content_type);
     return type == "application/json" || (type.starts_with("application/") && type.ends_with("+json"));
 }
 

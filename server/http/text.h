@@ -29,6 +29,8 @@ std::optional<int> preferred_wait_s(std::string_view prefer);
 bool names_etag(std::string_view if_none_match, std::string_view etag);
 
 /// Whether a Content-Type is JSON: application/json or application/...+json.
+/// The type of a Content-Type in lower case, without parameters.
+std::string media_type_of(std::string_view content_type);
 bool is_json_type(std::string_view content_type);
 
 /// The name in a Host field, in lower case and without its port; IPv6 addresses keep their brackets.

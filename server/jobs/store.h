@@ -122,6 +122,20 @@ struct Blob {
     std::filesystem::path path;
 };
 
+/// An uploaded file that specs may refer to by its SHA-256.
+struct Asset {
+    std::string sha256;
+    std::string type;  ///< texture, model or volume
+    std::string media_type;
+    std::string name;  ///< what its sender calls it; may be empty
+    std::int64_t size_bytes = 0;
+    std::int64_t created_ms = 0;
+    nlohmann::json facts;  ///< an object of what its check found
+    std::filesystem::path path;
+};
+
+enum class RemoveAssetResult { not_found, in_use, removed };
+
 /// The queue of jobs and the archive of reports, shared by the service and its workers. All calls may be made from any
 /// thread and any process, take effect whole or not at all, and throw StoreError when they fail.
 class Store {
@@ -138,6 +152,13 @@ class Store {
     /// other report names.
     virtual RemoveResult remove(const std::string& id) = 0;
     virtual std::optional<Blob> find_blob(const std::string& sha256) = 0;
+    /// Keeps an asset with its bytes; does nothing if it is there already. `asset.path` means nothing here.
+    virtual void add_asset(const Asset& asset, const std::string& bytes) = 0;
+    virtual std::optional<Asset> find_asset(const std::string& sha256) = 0;
+    /// Newest first.
+    virtual std::vector<Asset> list_assets(int limit) = 0;
+    /// An asset that a queued or running report refers to stays.
+    virtual RemoveAssetResult remove_asset(const std::string& sha256) = 0;
     /// A number that differs from the last call's if anything was written between the two.
     virtual std::int64_t change_counter() = 0;
     /// When a worker last rendered something.

@@ -44,7 +44,8 @@ void Attempt::run() {
 ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
     ChildRun run;
     run.options.program = m_options.program;
-    run.options.arguments = {"render", spec.string(), "--out", out.string()};
+    run.options.arguments = {"render",     spec.string(), "--out",
+                             out.string(), "--assets",    (m_options.data / "assets").string()};
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
     run.time_limit = m_options.time_limit;
     run.wake_descriptor = m_stop.descriptor();

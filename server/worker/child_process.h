@@ -17,6 +17,7 @@ struct ChildOptions {
     std::string program = own_program;
     std::vector<std::string> arguments;    ///< without the program's name
     std::uint64_t memory_limit_bytes = 0;  ///< address space (RLIMIT_AS); 0: no limit
+    int input = -1;                        ///< what its standard input reads; -1: nothing
     bool capture_output = true;            ///< else the child writes to our standard error
     int signal_when_orphaned = SIGKILL;    ///< what the child gets when the thread that started it ends
 };
@@ -28,7 +29,7 @@ struct ExitStatus {
 };
 
 /// A process in its own process group, which is killed and reaped at the end of this object's life. It inherits no file
-/// but standard input (empty), output and error.
+/// but standard input, output and error.
 class ChildProcess {
   public:
     /// Throws std::system_error.

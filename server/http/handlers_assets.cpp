@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <atomic>
+#include <memory>
+
+#include "renderer/assets/check_asset.h"
+#include "renderer/report/report.h"
+#include "server/archive/blob_store.h"
+#include "server/http/problem.h"
+#include "server/http/service.h"
+#include "server/http/text.h"
+
+namespace sheer::http {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* assets_path = "/api/v1/assets";
+constexpr const char* retry_check_s = "1";
+constexpr std::size_t max_name_bytes = 200;
+
+/// One of the few uploads that are read at a time: each takes a processor and a thread that makes answers.
+class CheckSlot {
+  public:
+    CheckSlot(std::atomic<int>& taken, int slots) : m_taken(taken) {
+        if (++m_taken <= slots) return;
+        --m_taken;
+        throw Problem(429, "Other uploads are being read; come again.").with("Retry-After", retry_check_s);
+    }
+    CheckSlot(const CheckSlot&) = delete;
+    CheckSlot& operator=(const CheckSlot&) = delete;
+    ~CheckSlot() { --m_taken; }
+
+  private:
+    std::atomic<int>& m_taken;
+};
+
+json asset_json(const Asset& asset) {
+    json body = asset.facts;
+    body.update({{"sha256", asset.sha256},
+                 {"type", asset.type},
+                 {"media_type", asset.media_type},
+                 {"name", asset.name},
+                 {"bytes", asset.size_bytes},
+                 {"created_at", utc_text(asset.created_ms)},
+                 {"url", fmt::format("{}/{}", assets_path, asset.sha256)}});
+    return body;
+}
+
+Response asset_response(int status, const Asset& asset) {
+    Response response = json_response(status, asset_json(asset));
+    response.headers.add("Location", fmt::format("{}/{}", assets_path, asset.sha256));
+    return response;
+}
+
+Response known_asset(const Asset& asset, const std::string& media_type) {
+    if (asset.media_type != media_type)
+        throw Problem(409, fmt::format("These bytes are here already, as {}.", asset.media_type));
+    return asset_response(200, asset);
+}
+
+Answer post_asset(Service& service, std::atomic<int>& checks, const Request& request) {
+    const std::string media_type = media_type_of(request.headers.find("Content-Type").value_or(""));
+    const AssetKind& kind = *find_asset_kind(media_type);
+    Asset asset{.sha256 = sha256_hex(request.body),
+                .type = kind.type,
+                .media_type = media_type,
+                .name = request.query["name"],
+                .size_bytes = static_cast<std::int64_t>(request.body.size())};
+    if (const auto known = service.store.find_asset(asset.sha256)) return known_asset(*known, media_type);
+    UploadVerdict verdict;
+    {
+        const CheckSlot slot(checks, service.max_checks);
+        verdict = service.check_upload(request.body, media_type);
+    }
+    if (!verdict.refusal.empty())
+        throw Problem(422, fmt::format("The file is not taken as {}: {}.", media_type, verdict.refusal));
+    asset.facts = std::move(verdict.facts);
+    service.store.add_asset(asset, request.body);
+    const auto added = service.store.find_asset(asset.sha256);
+    if (!added) throw Problem(409, "The asset was deleted in the meantime.");
+    return asset_response(201, *added);
+}
+
+Asset found(Service& service, const Request& request) {
+    const std::string sha256 = request.path_values.at("sha256");
+    const auto asset = is_sha256(sha256) ? service.store.find_asset(sha256) : std::nullopt;
+    if (!asset) throw Problem(404, "There is no such asset.");
+    return *asset;
+}
+
+Answer get_asset(Service& service, const Request& request) {
+    const Asset asset = found(service, request);
+    Response response{.status = 200, .headers = {}, .body = asset.path};
+    response.headers.add("Content-Type", asset.media_type);
+    response.headers.add("ETag", fmt::format("\"{}\"", asset.sha256));
+    // Private and checked again, since an asset can be deleted.
+    response.headers.add("Cache-Control", "private, no-cache");
+    return response;
+}
+
+Answer list_assets(Service& service, const Request& request) {
+    json body = {{"assets", json::array()}};
+    for (const Asset& asset : service.store.list_assets(request.query["limit"]))
+        body["assets"].push_back(asset_json(asset));
+    return json_response(200, body);
+}
+
+Answer delete_asset(Service& service, const Request& request) {
+    switch (service.store.remove_asset(request.path_values.at("sha256"))) {
+        case RemoveAssetResult::removed:
+            return Response{.status = 204, .headers = {}, .body = {}};
+        case RemoveAssetResult::in_use:
+            throw Problem(409, "A queued or running report needs this asset.");
+        case RemoveAssetResult::not_found:
+            break;
+    }
+    throw Problem(404, "There is no such asset.");
+}
+
+Route post_route(Service& service) {
+    std::vector<std::string> media_types;
+    for (const AssetKind& kind : asset_kinds()) media_types.push_back(kind.media_type);
+    auto checks = std::make_shared<std::atomic<int>>(0);
+    return {
+        .method = "POST",
+        .pattern = assets_path,
+        .id = "createAsset",
+        .summary = "Upload a file that specs can refer to by its SHA-256",
+        .query = {Param::text("name", "what you call it; the list shows it", "", max_name_bytes)},
+        .headers = {},
+        .body_schema = "",
+        .replies = {{201, "It is kept; Location says where", "application/json", "Asset"},
+                    {200, "It was here already", "application/json", "Asset"},
+                    {409, "The same bytes are here already under another type", "application/problem+json", "Problem"},
+                    {422, "The file is not what its type says; `detail` has the reason", "application/problem+json",
+                     "Problem"},
+                    {429, "Other uploads are being read; Retry-After says when to come again",
+                     "application/problem+json", "Problem"}},
+        .handle = [&service, checks](const Request& request) { return post_asset(service, *checks, request); },
+        .body_types = std::move(media_types),
+        .body_bytes = service.max_asset_bytes};
+}
+
+Route one_route(std::string method, std::string id, std::string summary, std::vector<Reply> replies, Handler handle) {
+    replies.push_back({404, "There is no such asset", "application/problem+json", "Problem"});
+    return {.method = std::move(method),
+            .pattern = std::string(assets_path) + "/{sha256}",
+            .id = std::move(id),
+            .summary = std::move(summary),
+            .query = {},
+            .headers = {},
+            .body_schema = "",
+            .replies = std::move(replies),
+            .handle = std::move(handle)};
+}
+
+}  // namespace
+
+std::vector<Route> asset_routes(Service& service) {
+    return {post_route(service),
+            {.method = "GET",
+             .pattern = assets_path,
+             .id = "listAssets",
+             .summary = "The uploaded files, newest first",
+             .query = {Param::integer("limit", "how many at most", "", 100, 1, 1000)},
+             .headers = {},
+             .body_schema = "",
+             .replies = {{200, "The list", "application/json", "AssetList"}},
+             .handle = [&service](const Request& request) { return list_assets(service, request); }},
+            one_route("GET", "getAsset", "The bytes of an uploaded file", {{200, "The file", "*/*", ""}},
+                      [&service](const Request& request) { return get_asset(service, request); }),
+            one_route("DELETE", "deleteAsset", "Delete an uploaded file",
+                      {{204, "It is deleted", "", ""},
+                       {409, "A queued or running report needs it", "application/problem+json", "Problem"}},
+                      [&service](const Request& request) { return delete_asset(service, request); })};
+}
+
+}  // namespace sheer::http
