@@ -41,6 +41,9 @@ TEST(ServiceConfigTest, TheShippedFileSaysTheDefaults) {
     EXPECT_EQ(shipped.http.event_heartbeat, defaults.http.event_heartbeat);
     EXPECT_EQ(shipped.max_queued, defaults.max_queued);
     EXPECT_EQ(shipped.leases.heartbeat_ms, defaults.leases.heartbeat_ms);
+    EXPECT_EQ(shipped.max_asset_bytes, defaults.max_asset_bytes);
+    EXPECT_EQ(shipped.upload_check.memory_limit_bytes, defaults.upload_check.memory_limit_bytes);
+    EXPECT_EQ(shipped.upload_check.time_limit, defaults.upload_check.time_limit);
     EXPECT_EQ(shipped.worker.memory_limit_bytes, defaults.worker.memory_limit_bytes);
     EXPECT_EQ(shipped.worker.poll_interval, defaults.worker.poll_interval);
 }
