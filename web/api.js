@@ -12,6 +12,15 @@ export class ApiError extends Error {
   }
 }
 
+const MAX_NAME_BYTES = 200;
+
+/** The start of a name, as much as the service takes. */
+function shortened(name) {
+  let short = name;
+  while (new TextEncoder().encode(short).length > MAX_NAME_BYTES) short = [...short].slice(0, -1).join("");
+  return short;
+}
+
 async function call(path, options = {}) {
   let response;
   try {
@@ -65,6 +74,30 @@ export async function get_report(id, signal) {
 
 export async function delete_report(id) {
   await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" });
+}
+
+/** {assets, newest first; accepts: [{media_type, type, suffixes}]; max_bytes}. */
+export async function get_assets() {
+  return (await call("/assets")).body;
+}
+
+/** Uploads a file for specs to refer to; `on_progress` gets fractions up to 1. Gives what the service says of it. */
+export function upload_asset(file, media_type, on_progress) {
+  // fetch cannot say how far a body has got.
+  const request = new XMLHttpRequest();
+  return new Promise((resolve, reject) => {
+    request.upload.addEventListener("progress", ({ loaded, total }) => on_progress(total > 0 ? loaded / total : 1));
+    request.addEventListener("error", () => reject(new ApiError(0, { detail: "The file cannot be sent." })));
+    request.addEventListener("load", () => {
+      const is_json = (request.getResponseHeader("Content-Type") ?? "").includes("json");
+      const body = is_json ? JSON.parse(request.responseText) : {};
+      if (request.status < 300) resolve(body);
+      else reject(new ApiError(request.status, body, null));
+    });
+    request.open("POST", `${ROOT}/assets?${new URLSearchParams({ name: shortened(file.name) })}`);
+    request.setRequestHeader("Content-Type", media_type || "application/octet-stream");
+    request.send(file);
+  });
 }
 
 /** A page of the archive: {reports, next_cursor}. */

@@ -1,5 +1,6 @@
 // Form fields made from the descriptions of parameters: {name, kind, summary, unit, default, min, max, choices, fields,
 // optional}.
+import { asset_control } from "./asset_field.js";
 import { el, select, set_children, unique_id } from "./dom.js";
 import { words } from "./format.js";
 import { pointer_of } from "./spec_model.js";
@@ -104,6 +105,11 @@ function choice_field(param, path, model) {
     current,
   );
   return field_frame(param, path, input, { for_id: id });
+}
+
+function asset_field(param, path, model) {
+  const control = asset_control(param, model.get(path) ?? param.default, (value) => store(model, path, param, value));
+  return field_frame(param, path, control.element, { for_id: control.id });
 }
 
 function text_field(param, path, model) {
@@ -298,6 +304,7 @@ const FIELDS = {
   integer: number_field,
   boolean: boolean_field,
   choice: choice_field,
+  asset: asset_field,
   text: text_field,
   numbers: numbers_field,
   object: object_field,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/assets/file_bytes.h"
 #include "renderer/assets/picture_file.h"
@@ -14,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-AssetKind picture_kind(const char* media_type, PictureFormat format) {
+AssetKind picture_kind(const char* media_type, PictureFormat format, std::vector<std::string> suffixes) {
     const auto check = [format](const std::filesystem::path& file) {
         const std::string bytes = read_asset_bytes(file);
         if (const PictureHeader header = read_picture_header(bytes); header.format != format)
@@ -22,28 +23,33 @@ AssetKind picture_kind(const char* media_type, PictureFormat format) {
         const PictureFacts facts = decode_picture(bytes, [](int, const float*) {});
         return json{{"width", facts.header.width_px}, {"height", facts.header.height_px}, {"channels", facts.channels}};
     };
-    return {media_type, "texture", check};
+    return {media_type, "texture", check, std::move(suffixes)};
 }
 
 AssetKind nrrd_kind() {
-    return {"application/x-nrrd", "volume",
-            [](const std::filesystem::path& file) { return describe_nrrd(read_asset_bytes(file)); }};
+    return {"application/x-nrrd",
+            "volume",
+            [](const std::filesystem::path& file) { return describe_nrrd(read_asset_bytes(file)); },
+            {".nrrd"}};
 }
 
 /// The spec says what they hold, so there is nothing to check yet.
 AssetKind raw_volume_kind() {
-    return {"application/octet-stream", "volume", [](const std::filesystem::path& file) {
+    return {"application/octet-stream",
+            "volume",
+            [](const std::filesystem::path& file) {
                 return json{{"bytes", read_asset_bytes(file).size()}};
-            }};
+            },
+            {".raw"}};
 }
 
 }  // namespace
 
 const std::vector<AssetKind>& asset_kinds() {
     static const std::vector<AssetKind> kinds = {
-        picture_kind("image/png", PictureFormat::png),
-        picture_kind("image/jpeg", PictureFormat::jpeg),
-        picture_kind("image/x-exr", PictureFormat::exr),
+        picture_kind("image/png", PictureFormat::png, {".png"}),
+        picture_kind("image/jpeg", PictureFormat::jpeg, {".jpg", ".jpeg"}),
+        picture_kind("image/x-exr", PictureFormat::exr, {".exr"}),
         nrrd_kind(),
         raw_volume_kind(),
     };

@@ -17,6 +17,7 @@ struct AssetKind {
     /// Throws AssetError if it is not what it is said to be. May die on a file that is made to do harm, so it runs in a
     /// process of its own.
     std::function<nlohmann::json(const std::filesystem::path& file)> check;
+    std::vector<std::string> suffixes;  ///< that names of such files end with: lower case, with the dot
 };
 
 const std::vector<AssetKind>& asset_kinds();

@@ -102,7 +102,9 @@ Answer get_asset(Service& service, const Request& request) {
 }
 
 Answer list_assets(Service& service, const Request& request) {
-    json body = {{"assets", json::array()}};
+    json body = {{"assets", json::array()}, {"accepts", json::array()}, {"max_bytes", service.max_asset_bytes}};
+    for (const AssetKind& kind : asset_kinds())
+        body["accepts"].push_back({{"media_type", kind.media_type}, {"type", kind.type}, {"suffixes", kind.suffixes}});
     for (const Asset& asset : service.store.list_assets(request.query["limit"]))
         body["assets"].push_back(asset_json(asset));
     return json_response(200, body);
@@ -164,7 +166,7 @@ std::vector<Route> asset_routes(Service& service) {
             {.method = "GET",
              .pattern = assets_path,
              .id = "listAssets",
-             .summary = "The uploaded files, newest first",
+             .summary = "The uploaded files, newest first, and what is accepted",
              .query = {Param::integer("limit", "how many at most", "", 100, 1, 1000)},
              .headers = {},
              .body_schema = "",

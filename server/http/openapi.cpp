@@ -142,6 +142,16 @@ json asset_schema() {
     return schema;
 }
 
+json asset_list_schema() {
+    const json texts = {{"type", "array"}, {"items", text_schema()}};
+    const json kind = object_schema({{"media_type", text_schema()}, {"type", text_schema()}, {"suffixes", texts}},
+                                    {"media_type", "type", "suffixes"});
+    return object_schema({{"assets", {{"type", "array"}, {"items", reference("Asset")}}},
+                          {"accepts", {{"type", "array"}, {"items", kind}}},
+                          {"max_bytes", {{"type", "integer"}}}},
+                         {"assets", "accepts", "max_bytes"});
+}
+
 json problem_schema() {
     const json error = object_schema({{"pointer", text_schema()}, {"detail", text_schema()}}, {"pointer", "detail"});
     return object_schema({{"type", text_schema()},
@@ -159,7 +169,7 @@ json schemas() {
             {"Report", report_schema()},
             {"ReportList", list_schema()},
             {"Asset", asset_schema()},
-            {"AssetList", object_schema({{"assets", {{"type", "array"}, {"items", reference("Asset")}}}}, {"assets"})},
+            {"AssetList", asset_list_schema()},
             {"Problem", problem_schema()},
             {"Catalog", {{"type", "array"}, {"items", {{"type", "object"}}}}},
             {"Health", object_schema({{"status", text_schema()}}, {"status"})}};

@@ -142,6 +142,6 @@ test("the OpenAPI document has the uploads", async () => {
     for (const status of ["200", "201", "409", "413", "415", "422", "429"]) assert.ok(post.responses[status], status);
     assert.ok(components.schemas.Asset.required.includes("sha256"));
     const response = await upload(service, PICTURE, "text/html");
-    assert.equal(response.headers.get("accept"), Object.keys(post.requestBody.content).join(", "));
+    assert.deepEqual(response.headers.get("accept").split(", ").sort(), Object.keys(post.requestBody.content));
   });
 });

@@ -13,6 +13,7 @@ namespace sheer {
 namespace {
 
 using nlohmann::json;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 /// The reason why `work` refuses; "" if it does not.
@@ -210,6 +211,15 @@ TEST_F(AssetFiles, AreCheckedByWhatTheyAreSaidToBe) {
     EXPECT_THAT(refusal([&] { check_asset(m_folder.path() / "none", "image/png"); }), HasSubstr("cannot be read"));
     const auto exr = m_folder.file("b", encode_picture<float>("openexr", 1, 1, 1, {1}));
     EXPECT_EQ(check_asset(exr, "image/x-exr")["channels"], 1);
+}
+
+TEST(AssetKinds, SayAllThatAFormNeeds) {
+    for (const AssetKind& kind : asset_kinds()) {
+        EXPECT_EQ(find_asset_kind(kind.media_type), &kind);
+        EXPECT_THAT(kind.type, AnyOf("texture", "model", "volume"));
+        EXPECT_FALSE(kind.suffixes.empty()) << kind.media_type;
+        for (const std::string& suffix : kind.suffixes) EXPECT_TRUE(suffix.starts_with('.')) << suffix;
+    }
 }
 
 TEST_F(AssetFiles, AreFoundByTheirNames) {

@@ -1,5 +1,6 @@
 // The form of a new comparison against a real service.
 import assert from "node:assert/strict";
+import { plain_png } from "../service/pictures.mjs";
 import { HOSTILE, assert_accessible, field, fill_form, service_tests } from "./harness.mjs";
 
 const tests = service_tests();
@@ -128,4 +129,39 @@ page_test("the usual entries of a list come into the spec to be changed", {}, as
   await page.getByRole("button", { name: "Remove Transfer 1", exact: true }).click();
   assert.deepEqual(await transfer(), usual.slice(1));
   await assert_accessible(page, "a form with a list");
+});
+
+page_test("a texture is uploaded from its field and used", { expected_statuses: [422] }, async (page) => {
+  await fill_form(page, tests.url());
+  const texture = page.locator(field("/scene/texture/image"));
+  const choice = texture.locator("select");
+  assert.equal(await choice.inputValue(), "leaf");
+  const status = texture.getByRole("status");
+  const upload = (name, buffer) =>
+    texture.locator("input[type=file]").setInputFiles({ name, mimeType: "image/png", buffer });
+
+  await upload("fake.jpg", plain_png(2, [1, 2, 3]));
+  await status.getByText("is a PNG, not a JPEG").waitFor();
+  assert.equal(await choice.inputValue(), "leaf");
+  await assert_accessible(page, "a form with a refused upload");
+
+  const name = `${"ö<b>".repeat(60)}.png`;
+  await upload(name, plain_png(2, [9, 8, 7]));
+  await choice.getByText("(2 × 2)").waitFor({ state: "attached" });
+  const sha256 = await choice.inputValue();
+  assert.match(sha256, /^[0-9a-f]{64}$/);
+  assert.equal(await status.textContent(), "");
+  const { assets } = await api("/assets");
+  assert.deepEqual([assets[0].sha256, assets[0].width], [sha256, 2]);
+  assert.ok(name.startsWith(assets[0].name) && assets[0].name.length > 100);
+  await page.getByText("The spec is valid.").waitFor();
+  await page.getByRole("tab", { name: "Spec" }).click();
+  const text = page.getByLabel("Spec as JSON");
+  const spec = JSON.parse(await text.inputValue());
+  assert.equal(spec.scene.texture.image, sha256);
+  await text.fill(JSON.stringify({ ...spec, scene: { ...spec.scene, texture: { image: "0".repeat(64) } } }));
+  await page.getByRole("tab", { name: "Form" }).click();
+  await texture.locator(":scope > .error-text").getByText("no asset with this SHA-256").waitFor();
+  await choice.selectOption("smoke");
+  await page.getByText("The spec is valid.").waitFor();
 });

@@ -1,0 +1,107 @@
+// The control of a field that refers to a file: names that are built in, files that were uploaded, and a button to
+// upload another.
+import { get_assets, upload_asset } from "./api.js";
+import { el, select, unique_id } from "./dom.js";
+
+const SHOWN_DIGITS = 12;
+
+function caption_of(asset) {
+  const size = asset.width && asset.height ? ` (${asset.width} × ${asset.height})` : "";
+  return `${asset.name || asset.sha256.slice(0, SHOWN_DIGITS)}${size}`;
+}
+
+/** The media type to send a file as: what the service reads by the end of its name, else what the browser says. */
+function media_type_of(file, kinds) {
+  const name = file.name.toLowerCase();
+  const kind = kinds.find(({ suffixes }) => suffixes.some((suffix) => name.endsWith(suffix)));
+  return kind?.media_type ?? file.type;
+}
+
+class AssetControl {
+  #param;
+  #current;
+  #on_change;
+  #uploaded = [];
+  #kinds = [];
+  #max_bytes = Infinity;
+  #select = el("select", { id: unique_id("field"), onchange: () => this.#choose(this.#select.value) });
+  #file = el("input", { type: "file", hidden: true, onchange: () => this.#upload() });
+  #button = el("button", { type: "button", class: "small", onclick: () => this.#file.click() }, "Upload…");
+  #status = el("p", { class: "upload-status", role: "status" });
+
+  constructor(param, current, on_change) {
+    this.#param = param;
+    this.#current = current ?? "";
+    this.#on_change = on_change;
+    this.#button.setAttribute("aria-label", `Upload a ${param.asset_type}`);
+    this.element = el("div", { class: "asset" }, this.#select, this.#button, this.#file, this.#status);
+    this.#draw();
+    this.#load();
+  }
+
+  get id() {
+    return this.#select.id;
+  }
+
+  async #load() {
+    try {
+      const { assets, accepts, max_bytes } = await get_assets();
+      this.#uploaded = [...this.#uploaded, ...assets.filter(({ type }) => type === this.#param.asset_type)];
+      this.#kinds = accepts.filter(({ type }) => type === this.#param.asset_type);
+      this.#max_bytes = max_bytes;
+      this.#file.accept = this.#kinds.flatMap(({ suffixes, media_type }) => [...suffixes, media_type]).join(",");
+      this.#draw();
+    } catch (error) {
+      this.#say(`The uploaded files cannot be listed: ${error.message}`, true);
+    }
+  }
+
+  #draw() {
+    const built_in = (this.#param.choices ?? []).map((name) => [name, name]);
+    const uploaded = this.#uploaded.map((asset) => [asset.sha256, caption_of(asset)]);
+    const known = [...built_in, ...uploaded].some(([value]) => value === this.#current);
+    const choices = [
+      known ? null : [this.#current, this.#current === "" ? `Choose a ${this.#param.asset_type}` : this.#current],
+      ...built_in,
+      uploaded.length > 0 ? { label: "Uploaded", choices: uploaded } : null,
+    ].filter(Boolean);
+    this.#select.replaceChildren(...select({}, choices, this.#current).childNodes);
+  }
+
+  #choose(value) {
+    this.#current = value;
+    this.#on_change(value);
+  }
+
+  #say(text, is_error = false) {
+    this.#status.textContent = text;
+    this.#status.classList.toggle("error-text", is_error);
+  }
+
+  async #upload() {
+    const [file] = this.#file.files;
+    if (!file) return;
+    this.#button.disabled = true;
+    try {
+      if (file.size > this.#max_bytes) throw new Error(`The file is over the limit of ${this.#max_bytes} bytes.`);
+      const asset = await upload_asset(file, media_type_of(file, this.#kinds), (part) =>
+        this.#say(part < 1 ? `Uploading ${file.name}: ${Math.round(100 * part)} %` : `Reading ${file.name}`),
+      );
+      this.#uploaded = [asset, ...this.#uploaded.filter(({ sha256 }) => sha256 !== asset.sha256)];
+      this.#say("");
+      // Another scene may have been chosen meanwhile.
+      if (this.element.isConnected) this.#choose(asset.sha256);
+      this.#draw();
+    } catch (error) {
+      this.#say(error.message, true);
+    } finally {
+      this.#file.value = "";
+      this.#button.disabled = false;
+    }
+  }
+}
+
+/** {element, id of its select}; `on_change(value)` gets a built-in name or the SHA-256 of an uploaded file. */
+export function asset_control(param, current, on_change) {
+  return new AssetControl(param, current, on_change);
+}
