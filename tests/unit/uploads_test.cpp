@@ -32,9 +32,9 @@ class UploadCheckTest : public testing::Test {
 };
 
 TEST_F(UploadCheckTest, TheChildGetsTheBytesAndTheType) {
-    const auto verdict =
-        check_with(R"(printf '{"facts": {"said": "%s %s"}}\n' "$4" "$(cat "$2")") ", " of the upload ");
-        EXPECT_EQ(verdict.refusal, "");
+    const std::string script = R"sh(printf '{"facts": {"said": "%s %s"}}\n' "$4" "$(cat "$2")")sh";
+    const UploadVerdict verdict = check_with(script, "of the upload");
+    EXPECT_EQ(verdict.refusal, "");
     EXPECT_EQ(verdict.facts, (json{{"said", "image/png of the upload"}}));
 }
 
