@@ -95,7 +95,7 @@ export function upload_asset(file, media_type, on_progress) {
       else reject(new ApiError(request.status, body, null));
     });
     request.open("POST", `${ROOT}/assets?${new URLSearchParams({ name: shortened(file.name) })}`);
-    request.setRequestHeader("Content-Type", media_type || "application/octet-stream");
+    request.setRequestHeader("Content-Type", media_type);
     request.send(file);
   });
 }

@@ -10,11 +10,17 @@ function caption_of(asset) {
   return `${asset.name || asset.sha256.slice(0, SHOWN_DIGITS)}${size}`;
 }
 
-/** The media type to send a file as: what the service reads by the end of its name, else what the browser says. */
+const RAW = "application/octet-stream";
+
+/** The media type to send a file as: by the end of its name, else what the browser says, else plain bytes. */
 function media_type_of(file, kinds) {
   const name = file.name.toLowerCase();
-  const kind = kinds.find(({ suffixes }) => suffixes.some((suffix) => name.endsWith(suffix)));
-  return kind?.media_type ?? file.type;
+  const kind =
+    kinds.find(({ suffixes }) => suffixes.some((suffix) => name.endsWith(suffix))) ??
+    kinds.find(({ media_type }) => media_type === file.type) ??
+    kinds.find(({ media_type }) => media_type === RAW);
+  if (kind) return kind.media_type;
+  throw new Error(`The name must end with ${kinds.flatMap(({ suffixes }) => suffixes).join(", ")}.`);
 }
 
 class AssetControl {

@@ -145,6 +145,9 @@ page_test("a texture is uploaded from its field and used", { expected_statuses: 
   assert.equal(await choice.inputValue(), "smoke");
   await assert_accessible(page, "a form with a refused upload");
 
+  await texture.locator("input[type=file]").setInputFiles({ name: "a.txt", mimeType: "text/plain", buffer: Buffer.from("a") });
+  await status.getByText("must end with .png").waitFor();
+
   const name = `${"ö<b>".repeat(60)}.png`;
   await upload(name, plain_png(2, [9, 8, 7]));
   await choice.getByText("(2 × 2)").waitFor({ state: "attached" });
