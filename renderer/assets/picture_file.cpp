@@ -16,6 +16,8 @@ namespace sheer {
 
 namespace {
 
+constexpr float max_half = 65504;
+
 const char* reader_name(PictureFormat format) {
     if (format == PictureFormat::png) return "png";
     return format == PictureFormat::jpeg ? "jpeg" : "openexr";
@@ -120,9 +122,9 @@ Picture read_picture(std::string_view bytes, int width_px, int height_px) {
     Scaler scaler(header.width_px, header.height_px, width_px, height_px);
     const PictureFacts facts = decode_picture(bytes, [&](int y, const float* rgba) { scaler.add_row(y, rgba); });
     Picture picture{scaler.finish(), facts.eight_bit};
-    // What 8 bits hold ends at 1; interpolation overshoots at edges.
-    if (picture.eight_bit)
-        for (float& value : picture.image.rgba) value = std::min(value, 1.0f);
+    // Interpolation overshoots at edges, and what a 16-bit float cannot hold would become infinite on the device.
+    const float greatest = facts.eight_bit ? 1.0f : max_half;
+    for (float& value : picture.image.rgba) value = std::min(value, greatest);
     return picture;
 }
 

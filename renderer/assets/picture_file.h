@@ -22,6 +22,7 @@ using RowFunction = std::function<void(int y, const float* rgba)>;
 PictureFacts decode_picture(std::string_view bytes, const RowFunction& row);
 
 /// The picture scaled to this size. No transfer function is applied: the methods blend the values as they are.
+/// Colours are at least 0, and at most 1 (8 bits) or 65504 (the greatest 16-bit float).
 /// A spec's texture, or one inside a model. Throws AssetError.
 Picture read_picture(std::string_view bytes, int width_px, int height_px);
 

@@ -124,6 +124,14 @@ TEST(ReadPicture, DividesTheColoursOfAnExrByTheirAlpha) {
     }
 }
 
+TEST(ReadPicture, KeepsColoursWithinWhatATextureHolds) {
+    const Picture bright = read_picture(encode_picture<float>("openexr", 1, 1, 3, {1e30f, -1, 2}), 1, 1);
+    expect_pixel(bright.image, 0, 0, {65504, 0, 2, 1});
+    // Growing overshoots behind an edge; see Scaler.GrowsByCatmullRom.
+    const Picture edge = read_picture(encode_picture<std::uint8_t>("png", 2, 1, 3, {0, 0, 0, 255, 255, 255}), 4, 1);
+    expect_pixel(edge.image, 3, 0, {1, 1, 1, 1});
+}
+
 TEST(ReadPicture, ReadsAJpeg) {
     std::vector<std::uint8_t> values;
     for (int i = 0; i < 16 * 16; ++i) values.insert(values.end(), {200, 100, 50});
