@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "renderer/frame/depth_peeler.h"
+#include "renderer/frame/loop_check.h"
 #include "renderer/frame/needed.h"
 #include "renderer/frame/overdraw.h"
 #include "renderer/frame/shading_counter.h"
@@ -34,6 +35,7 @@ class Comparer {
         m_progress(0, "building the scene");
         const Geometry geometry = build_geometry(m_spec.scene, m_spec.image, m_assets);
         Scene scene(m_context.gl(), geometry, m_spec.scene);
+        check_loops(m_context.gl(), scene, m_spec.image);
         Run run;
         render_reference(scene, run);
         const Target target(m_context.gl(), m_spec.image, m_spec.image.format);

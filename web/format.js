@@ -69,8 +69,11 @@ export function short_value(value) {
   return String(value);
 }
 
+const ABBREVIATIONS = new Set(["glsl"]);
+
 /** snake_case to words with a capital. */
 export function words(name) {
+  if (ABBREVIATIONS.has(name)) return name.toUpperCase();
   const text = name.replaceAll("_", " ");
   return text.charAt(0).toUpperCase() + text.slice(1);
 }

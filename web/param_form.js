@@ -45,7 +45,7 @@ export function field_frame(param, path, control, { for_id, group = false } = {}
     group ? "fieldset" : "div",
     { class: `field kind-${param.kind}${wide}`, "data-pointer": pointer_of(path) },
     group ? el("legend", {}, caption) : el("label", { for: for_id }, caption),
-    param.fields ? [hint, control] : [control, hint],
+    group && param.fields ? [hint, control] : [control, hint],
     el("p", { class: "error-text", id: error_id, hidden: true }),
   );
 }
@@ -95,16 +95,29 @@ function boolean_field(param, path, model) {
   return field_frame(param, path, input, { for_id: id });
 }
 
+/** Stands for the object that a choice may be instead; no choice is called so. */
+const OWN = "";
+
 function choice_field(param, path, model) {
   const id = unique_id("field");
-  const current = model.get(path) ?? param.default;
-  const choices = param.choices.includes(current) ? param.choices : [...param.choices, String(current)];
-  const input = select(
-    { id, onchange: () => store(model, path, param, input.value) },
-    choices.map((choice) => [choice, choice]),
-    current,
-  );
-  return field_frame(param, path, input, { for_id: id });
+  const fields = param.fields ?? [];
+  const value = model.get(path) ?? param.default;
+  const current = fields.length > 0 && typeof value === "object" ? OWN : String(value);
+  const choices = param.choices.map((choice) => [choice, choice]);
+  if (fields.length > 0) choices.push([OWN, `own ${words(fields[0].name)}`]);
+  if (!choices.some(([choice]) => choice === current)) choices.push([current, current]);
+  const own_fields = el("div");
+  const draw = () => set_children(own_fields, input.value === OWN ? fields_of(fields, path, model) : null);
+  const choose = () => {
+    if (input.value === OWN) model.set(path, new_entry(fields));
+    else store(model, path, param, input.value);
+    draw();
+  };
+  const input = select({ id, onchange: choose }, choices, current);
+  const frame = field_frame(param, path, fields.length > 0 ? el("div", {}, input, own_fields) : input, { for_id: id });
+  // The fields have hints and errors of their own, so they come when the frame has been made.
+  draw();
+  return frame;
 }
 
 function asset_field(param, path, model) {
@@ -117,6 +130,7 @@ function text_field(param, path, model) {
   const long = (param.max_length ?? 0) > LONG_TEXT_BYTES;
   const input = el(long ? "textarea" : "input", {
     id,
+    class: long ? "source" : null,
     type: long ? null : "text",
     spellcheck: "false",
     value: model.get(path) ?? param.default ?? "",

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "renderer/errors.h"
+#include "renderer/scene/glsl_shading.h"
 #include "renderer/scene/textures.h"
 
 namespace sheer {
@@ -92,8 +94,9 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
 }
 
 void Scene::make_shading(const Geometry& geometry, const nlohmann::json& parameters) {
-    const auto name = parameters.at("shading").get<std::string>();
     m_shading_source = gl::shader_file("scenes/inputs.glsl");
+    if (parameters.at("shading").is_object()) return add_own_shading(geometry, parameters);
+    const auto name = parameters.at("shading").get<std::string>();
     if (const Shading* shading = find_shading(name)) {
         m_reads = shading->reads;
         m_shading_source += define("TEXTURED", shading->reads > 0) + define("MATH", shading->math);
@@ -103,6 +106,15 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
         m_shading_source += gl::shader_file("scenes/" + name + ".glsl");
         if (geometry.volume) m_volume = VolumeTextures(m_gl, *geometry.volume);
     }
+}
+
+void Scene::add_own_shading(const Geometry& geometry, const nlohmann::json& parameters) {
+    const GlslShading own = make_glsl_shading(parameters.at("shading").at("glsl"));
+    m_counts_iterations = own.has_loops;
+    m_shading_source += define("SHEER_TEXTURED", own.is_textured) + define("SHEER_ITERATIONS", iterations_per_fragment);
+    m_shading_source += gl::shader_file("scenes/glsl_shading.glsl");
+    m_shading_source += own.function;
+    if (own.is_textured) make_textures(geometry, parameters.at("texture"));
 }
 
 void Scene::make_textures(const Geometry& geometry, const nlohmann::json& texture) {
@@ -143,7 +155,13 @@ gl::Program Scene::make_program(std::string_view label, std::string_view method_
                                 const std::string& prolog) const {
     const std::string fragment = glsl_version + prolog + m_shading_source +
                                  std::string(gl::shader_file("scenes/count_shaded.glsl")) + std::string(method_source);
-    return gl::Program(m_gl, label, gl::shader_file("scenes/scene.vert.glsl"), fragment);
+    try {
+        return gl::Program(m_gl, label, gl::shader_file("scenes/scene.vert.glsl"), fragment);
+    } catch (const RenderError& error) {
+        const std::string messages = user_messages(error.what());
+        if (messages.empty()) throw;
+        throw SpecError(std::vector<FieldError>{{glsl_shading_pointer, "does not compile:\n" + messages}});
+    }
 }
 
 void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {

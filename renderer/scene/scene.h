@@ -34,8 +34,13 @@ class Scene {
     /// A program that draws this scene: its vertex stage, `real_work(vec2 uv, vec4 tint)`, then `method_source` with
     /// main(). `prolog` comes right after #version: #extension and #define lines.
     /// main() sees what is in shaders/scenes/inputs.glsl.
+    /// Throws SpecError at /scene/shading/glsl if it is the user's own shading that does not compile.
     gl::Program make_program(std::string_view label, std::string_view method_source,
                              const std::string& prolog = {}) const;
+
+    /// Whether the shading is the user's own and has loops, which count their iterations.
+    /// (renderer/frame/loop_check.h.)
+    bool counts_iterations() const { return m_counts_iterations; }
 
     /// Draws with `program` (of make_program) in use; binds the vertex array and texture unit 0.
     void draw_opaque(const gl::Program& program) const;
@@ -54,6 +59,7 @@ class Scene {
     };
     DrawList make_list(const Geometry& geometry, const std::vector<std::size_t>& order, std::string_view label) const;
     void make_shading(const Geometry& geometry, const nlohmann::json& parameters);
+    void add_own_shading(const Geometry& geometry, const nlohmann::json& parameters);
     void make_textures(const Geometry& geometry, const nlohmann::json& texture);
     void fill_textures(const Picture& picture);
     void bind(const gl::Program& program, const gl::Buffer& indices) const;
@@ -64,6 +70,7 @@ class Scene {
     bool m_parallel;
     glm::mat4 m_view_projection;
     std::string m_shading_source;  ///< GLSL with inputs and real_work
+    bool m_counts_iterations = false;
     std::size_t m_transparent_count = 0;
     GLsizei m_opaque_index_count = 0;
     gl::Buffer m_vertices;

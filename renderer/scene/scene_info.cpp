@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/scene/glsl_shading.h"
 #include "renderer/spec/names.h"
 
 namespace sheer {
@@ -23,8 +24,12 @@ std::vector<Param> SceneInfo::all_parameters() const {
     std::vector<std::string> shadings = {"constant",        "1-texture",    "4-textures",
                                          "4-textures-math", "4x4-textures", "4x4-textures-math"};
     if (!own_shading.empty()) shadings.push_back(own_shading);
-    all.push_back(Param::choice("shading", "what the fragment shader does: textures read and positions bent",
-                                default_shading, std::move(shadings)));
+    Param glsl =
+        Param::text("glsl", "body of vec4 real_work(vec2 uv, vec4 tint), see docs/shading.md", "", max_glsl_bytes);
+    glsl.min_length = 1;
+    all.push_back(Param::choice_or_object(
+        "shading", "what the fragment shader does: textures read and positions bent, or GLSL of your own",
+        default_shading, std::move(shadings), {glsl.required()}));
     all.push_back(Param::object("texture", "the four textures that the shading reads",
                                 {Param::asset("image", "what they show", "texture", default_texture, {"leaf", "smoke"}),
                                  Param::integer("size", "width and height", "px", 1024, 1, 4096)}));

@@ -52,7 +52,8 @@ std::string type_text(const json& field) {
     if (kind == "choice") {
         std::vector<std::string> choices;
         for (const json& choice : field.at("choices")) choices.push_back(code(choice));
-        return fmt::format("one of {}", fmt::join(choices, ", "));
+        const bool may_be_object = field.contains("fields");
+        return fmt::format("one of {}{}", fmt::join(choices, ", "), may_be_object ? ", or an object" : "");
     }
     if (kind == "text")
         return fmt::format("text of {} to {} bytes", field.value("min_length", 0), plain(field.at("max_length")));

@@ -61,6 +61,12 @@ std::string range_text(const Param& param) {
     return "finite";
 }
 
+std::vector<std::string> names_of(const std::vector<Param>& fields) {
+    std::vector<std::string> names;
+    for (const Param& param : fields) names.push_back(param.name);
+    return names;
+}
+
 /// Reads one value; on an error it adds one and gives the default.
 class ValueReader {
   public:
@@ -116,7 +122,12 @@ class ValueReader {
     json choice(const json& value) {
         if (value.is_string() && std::ranges::find(m_param.choices, value.get<std::string>()) != m_param.choices.end())
             return value;
-        return wrong(fmt::format("must be one of {}", fmt::join(m_param.choices, ", ")), value);
+        if (m_param.fields.empty())
+            return wrong(fmt::format("must be one of {}", fmt::join(m_param.choices, ", ")), value);
+        if (value.is_object()) return read_fields(value, m_pointer, m_param.fields, m_errors);
+        return wrong(fmt::format("must be one of {}, or an object with {}", fmt::join(m_param.choices, ", "),
+                                 fmt::join(names_of(m_param.fields), ", ")),
+                     value);
     }
 
     json text(const json& value) {
@@ -214,6 +225,7 @@ json value_schema(const Param& param) {
             break;
         case Param::Kind::choice:
             schema["enum"] = param.choices;
+            if (!param.fields.empty()) schema = {{"anyOf", {schema, schema_of(param.fields)}}};
             break;
         case Param::Kind::text:
             schema = {{"type", "string"}, {"minLength", param.min_length}, {"maxLength", param.max_length}};
@@ -282,6 +294,13 @@ Param Param::choice(std::string name, std::string summary, std::string fallback,
     return param;
 }
 
+Param Param::choice_or_object(std::string name, std::string summary, std::string fallback,
+                              std::vector<std::string> choices, std::vector<Param> fields) {
+    Param param = choice(std::move(name), std::move(summary), std::move(fallback), std::move(choices));
+    param.fields = std::move(fields);
+    return param;
+}
+
 Param Param::text(std::string name, std::string summary, std::string fallback, std::size_t max_length_bytes) {
     Param param{.name = std::move(name), .kind = Kind::text, .summary = std::move(summary)};
     param.default_value = std::move(fallback);
@@ -344,10 +363,8 @@ json read_fields(const json& object, const std::string& pointer, const std::vect
     }
     for (const auto& [key, value] : object.items()) {
         if (std::ranges::find(fields, key, &Param::name) != fields.end()) continue;
-        std::vector<std::string> names;
-        for (const Param& param : fields) names.push_back(param.name);
         errors.push_back({pointer + "/" + pointer_token(key),
-                          fmt::format("is not a known field; known are {}", fmt::join(names, ", "))});
+                          fmt::format("is not a known field; known are {}", fmt::join(names_of(fields), ", "))});
     }
     return result;
 }
@@ -390,7 +407,7 @@ std::vector<AssetReference> find_assets(const json& object, const std::string& p
             const auto name = value.get<std::string>();
             if (std::ranges::find(param.choices, name) == param.choices.end())
                 found.push_back({field_pointer, name, param.asset_type});
-        } else if (param.kind == Param::Kind::object && value.is_object()) {
+        } else if (value.is_object() && !param.fields.empty()) {
             std::ranges::move(find_assets(value, field_pointer, param.fields), std::back_inserter(found));
         }
     }

@@ -26,7 +26,7 @@ struct Param {
     std::string asset_type;            ///< of an asset: texture, model or volume
     std::size_t min_length = 0;        ///< of text (bytes), numbers and lists
     std::size_t max_length = 0;
-    std::vector<Param> fields;  ///< of an object, or of the objects in a list
+    std::vector<Param> fields;  ///< of an object, of the objects in a list, of the object that a choice may be instead
 
     static Param number(std::string name, std::string summary, std::string unit, double fallback, double min,
                         double max);
@@ -34,6 +34,9 @@ struct Param {
                          double max);
     static Param boolean(std::string name, std::string summary, bool fallback);
     static Param choice(std::string name, std::string summary, std::string fallback, std::vector<std::string> choices);
+    /// One of `choices`, or an object with these fields.
+    static Param choice_or_object(std::string name, std::string summary, std::string fallback,
+                                  std::vector<std::string> choices, std::vector<Param> fields);
     static Param text(std::string name, std::string summary, std::string fallback, std::size_t max_length_bytes);
     /// A fixed count of numbers, such as a colour.
     static Param numbers(std::string name, std::string summary, std::string unit, const std::vector<double>& fallback,

@@ -7,6 +7,7 @@
 
 #include "renderer/methods/method.h"
 #include "renderer/metrics/metric.h"
+#include "renderer/scene/glsl_shading.h"
 #include "renderer/scene/scene_info.h"
 #include "renderer/spec/names.h"
 #include "renderer/spec/param.h"
@@ -151,6 +152,7 @@ class SpecReader {
         scene.erase("type");
         spec.scene_type = info->id;
         spec.scene = read_fields(scene, "/scene", info->all_parameters(), m_errors);
+        check_glsl_shading(spec.scene, "/scene", m_errors);
         if (info->check) info->check(spec.scene, "/scene", m_errors);
         spec.scene["type"] = info->id;
         spec.normalised["scene"] = spec.scene;

@@ -168,3 +168,30 @@ page_test("a texture is uploaded from its field and used", { expected_statuses: 
   await choice.selectOption("leaf");
   await page.getByText("The spec is valid.").waitFor();
 });
+
+page_test("a shading of one's own is written in the form", { expected_statuses: [422] }, async (page) => {
+  await fill_form(page, tests.url());
+  const shading = page.locator(field("/scene/shading"));
+  const choice = shading.locator("select");
+  const source = page.locator(`${field("/scene/shading/glsl")} textarea`);
+  assert.equal(await source.count(), 0);
+  await choice.selectOption({ label: "own GLSL" });
+  await source.fill("return tint;\n#define x");
+  const error = page.locator(`${field("/scene/shading/glsl")} > .error-text`);
+  await error.filter({ hasText: "line 2 has a #" }).waitFor();
+  assert.equal(await shading.locator(":scope > .error-text").isHidden(), true);
+  const body = "return tint * vec4(uv, 1.0, 1.0);";
+  await source.fill(body);
+  await error.waitFor({ state: "hidden" });
+  await assert_accessible(page, "a form with a shading of one's own");
+  await page.getByRole("tab", { name: "Spec" }).click();
+  const text = page.getByLabel("Spec as JSON");
+  assert.deepEqual(JSON.parse(await text.inputValue()).scene.shading, { glsl: body });
+  await page.getByText("The spec is valid.").waitFor();
+  await page.getByRole("tab", { name: "Form" }).click();
+  assert.equal(await source.inputValue(), body);
+  await choice.selectOption("constant");
+  assert.equal(await source.count(), 0);
+  await page.getByRole("tab", { name: "Spec" }).click();
+  assert.equal(JSON.parse(await text.inputValue()).scene.shading, "constant");
+});

@@ -1,0 +1,43 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "renderer/errors.h"
+
+namespace sheer {
+
+/// Where a spec has a shading of the user's own.
+inline constexpr const char* glsl_shading_pointer = "/scene/shading/glsl";
+
+inline constexpr std::size_t max_glsl_bytes = 64 * 1024;
+
+/// What all loops of a fragment may take together. Under what drivers allow: llvmpipe leaves every loop of a shader,
+/// without a word, after 65,535 iterations of eight fragments that run in step.
+inline constexpr int iterations_per_fragment = 4096;
+
+/// The text cannot be the body of a function; says the line and what is wrong with it.
+class GlslError : public std::runtime_error {
+  public:
+    GlslError(int line, const std::string& detail);
+};
+
+/// The user's own `vec4 real_work(vec2 uv, vec4 tint)`.
+struct GlslShading {
+    std::string function;    ///< GLSL that follows shaders/scenes/glsl_shading.glsl; its lines have the user's numbers
+    bool has_loops = false;  ///< each of them asks sheer_next() before an iteration
+    bool is_textured = false;  ///< it names sample_texture
+};
+
+/// Makes the function from its body: printable ASCII without directives, brackets in pairs. Throws GlslError.
+GlslShading make_glsl_shading(const std::string& body);
+
+/// Adds the error of a normalised scene whose shading is GLSL that make_glsl_shading refuses.
+void check_glsl_shading(const nlohmann::json& scene, const std::string& pointer, std::vector<FieldError>& errors);
+
+/// The errors in a driver's log that are about the user's function: "line 3: ...", a line each. "" if there are none.
+/// Reads the logs of Mesa, NVIDIA and AMD.
+std::string user_messages(const std::string& driver_log);
+
+}  // namespace sheer

@@ -1,0 +1,196 @@
+#include "renderer/scene/glsl_shading.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/spec/spec.h"
+
+namespace sheer {
+
+namespace {
+
+using nlohmann::json;
+
+/// The function that is made of `body`, without the lines before and after it.
+std::string rewritten(const std::string& body) {
+    const std::string begin = "#line 100000\nvec4 real_work(vec2 uv, vec4 tint) { ", end = " }\n#line 1\n";
+    const std::string function = make_glsl_shading(body).function;
+    EXPECT_TRUE(function.starts_with(begin) && function.ends_with(end)) << function;
+    return function.substr(begin.size(), function.size() - begin.size() - end.size());
+}
+
+struct Rewriting {
+    std::string name, body, expected;
+};
+
+void PrintTo(const Rewriting& row, std::ostream* out) {
+    *out << row.body;
+}
+
+class Rewritings : public testing::TestWithParam<Rewriting> {};
+
+TEST_P(Rewritings, KeepTheLinesAndCountTheLoops) {
+    EXPECT_EQ(rewritten(GetParam().body), GetParam().expected);
+}
+
+const std::vector<Rewriting>& rewritings() {
+    static const std::vector<Rewriting> all = {
+        {"no_loop", "return tint;", "return tint;"},
+        {"for", "for (int i = 0; i < 3; ++i) x();", "for (int i = 0;( i < 3) && sheer_next(); ++i) x();"},
+        {"for_without_condition", "for (;;) {}", "for (;sheer_next();) {}"},
+        {"for_with_spaces_as_condition", "for (;\n ;) {}", "for (;sheer_next()\n ;) {}"},
+        {"for_with_brackets", "for (int a[2] = {1, 2}; f(a[0], (1)) < 2; g(1, 2)) {}",
+         "for (int a[2] = {1, 2};( f(a[0], (1)) < 2) && sheer_next(); g(1, 2)) {}"},
+        {"or_binds_weaker", "while (a || b) c;", "while ((a || b) && sheer_next()) c;"},
+        {"comma", "while (a, b) c;", "while ((a, b) && sheer_next()) c;"},
+        {"do", "do { a; } while (b);", "do { a; } while ((b) && sheer_next());"},
+        {"nested", "for (;a;) while (b) do c; while (d);",
+         "for (;(a) && sheer_next();) while ((b) && sheer_next()) do c; while ((d) && sheer_next());"},
+        {"names_that_hold_keywords", "int meanwhile, for_ = 1, _for; x.format;",
+         "int meanwhile, for_ = 1, _for; x.format;"},
+        {"letters_of_a_number", "x = 1.0for (;;);", "x = 1.0for (;;);"},
+        {"comments", "a; // while (\nb; /* for\n( */ c;", "a; \nb;  \n c;"},
+        {"comment_between", "while/**/(a/*)*/)/**/b;", "while ((a ) && sheer_next()) b;"},
+        {"comment_in_comment", "/* // */ a; // /* \nb;", "  a; \nb;"},
+        {"not_a_comment", "a = b / / c;", "a = b / / c;"},
+        {"line_ends", "a;\r\nb;\rc;\n\nd;", "a;\nb;\nc;\n\nd;"},
+        {"backslash_in_a_comment", "a; // \\\nb;", "a; \nb;"},
+    };
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Rewritings, testing::ValuesIn(rewritings()),
+                         [](const testing::TestParamInfo<Rewriting>& row) { return row.param.name; });
+
+TEST(GlslShading, KnowsWhatItNeeds) {
+    EXPECT_FALSE(make_glsl_shading("return tint; // for sample_texture").has_loops);
+    EXPECT_TRUE(make_glsl_shading("do {} while (false); return tint;").has_loops);
+    EXPECT_FALSE(make_glsl_shading("return my_sample_texture;").is_textured);
+    EXPECT_TRUE(make_glsl_shading("return sample_texture(0, uv);").is_textured);
+}
+
+struct Refusal {
+    std::string name, body, error;
+};
+
+void PrintTo(const Refusal& row, std::ostream* out) {
+    *out << row.body;
+}
+
+class Refusals : public testing::TestWithParam<Refusal> {};
+
+TEST_P(Refusals, NameTheLine) {
+    try {
+        make_glsl_shading(GetParam().body);
+        FAIL() << "was taken";
+    } catch (const GlslError& error) {
+        EXPECT_THAT(error.what(), testing::StartsWith(GetParam().error));
+    }
+}
+
+const std::vector<Refusal>& refusals() {
+    static const std::vector<Refusal> all = {
+        {"directive", "a;\n  #define b\n", "line 2 has a #"},
+        {"directive_after_a_comment", "/*\n\n*/ #if 1", "line 3 has a #"},
+        {"pasting", "a ## b", "line 1 has a #"},
+        {"closes_the_function", "return tint; }\nvoid f() {", "line 1 has a } that closes nothing"},
+        {"brace_left_open", "if (a) {\n b;", "line 1 has a { that is not closed"},
+        {"brackets_crossed", "f(\n[)]", "line 2 has a ) where the [ of line 2 is still open"},
+        {"brace_in_parentheses", "while (a {) b; }", "line 1 has a ) where the { of line 1 is still open"},
+        {"comment_left_open", "a;\nb; /* c }", "line 2 begins a comment that does not end"},
+        {"comment_that_is_too_short", "a; /*/", "line 1 begins a comment that does not end"},
+        {"nul", std::string("a;\n\0b;", 6), "line 2 has the byte 0x00"},
+        {"umlaut", "a;\r\r\nb; // \xc3\xa4", "line 3 has the byte 0xc3"},
+        {"line_continued", "a; \\\nb;", "line 1 has a \\"},
+        {"text", "a = \"}\";", "line 1 has a \""},
+        {"discard", "\n\ndiscard;", "line 3 has discard"},
+        {"own_depth", "gl_FragDepth = 0.5;", "line 1 has gl_FragDepth"},
+        {"fresh_budget", "begin_fragment();", "line 1 has begin_fragment"},
+        {"recursion", "return real_work(uv, tint);", "line 1 has real_work"},
+        {"own_counter", "sheer_iterations_left = 9;", "line 1 has sheer_iterations_left"},
+        {"own_macro", "SHEER_ITERATIONS;", "line 1 has SHEER_ITERATIONS"},
+        {"for_without_parenthesis", "for a;", "line 1 has a for without ("},
+        {"while_at_the_end", "a; while", "line 1 has a while without ("},
+        {"for_with_one_semicolon", "\nfor (a; b) c;", "line 2 has a for without two semicolons"},
+        {"for_with_three_semicolons", "for (a; b; c; d) e;", "line 1 has a for without two semicolons"},
+        {"declaration_in_while", "while (bool a = b) c;", "line 1 declares a variable"},
+        {"declaration_in_for", "for (; const bool a = b;) c;", "line 1 declares a variable"},
+    };
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Refusals, testing::ValuesIn(refusals()),
+                         [](const testing::TestParamInfo<Refusal>& row) { return row.param.name; });
+
+/// As the three drivers write them. The user's first line is 100000; what is about our own lines, and warnings, are
+/// left out.
+TEST(GlslShading, FindsTheUsersLinesInALog) {
+    EXPECT_EQ(user_messages("program 'b2f': does not compile:\n"
+                            "0:12(3): error: not the user's\n"
+                            "0:100002(10): warning: `a' used uninitialized\n"
+                            "0:100002(10): error: `b' undeclared\n"
+                            "0:100013(2): error: no matching function for call to `f()'\n"),
+              "line 3: `b' undeclared\nline 14: no matching function for call to `f()'");
+    EXPECT_EQ(user_messages("0(100002) : error C1503: undefined variable \"b\"\n0(9) : error C0000: syntax error\n"),
+              "line 3: error C1503: undefined variable \"b\"");
+    EXPECT_EQ(user_messages("ERROR: 0:100006: 'b' : undeclared identifier\nERROR: 0:7: 'c' : undeclared\n"),
+              "line 7: 'b' : undeclared identifier");
+    EXPECT_EQ(user_messages("0:99999(10): error: `b' undeclared"), "");
+    EXPECT_EQ(user_messages(""), "");
+}
+
+TEST(GlslShading, SaysOnlyTheFirstErrors) {
+    std::string log;
+    for (int i = 0; i < 1000; ++i) log += "0:100002(10): error: `b' undeclared\n";
+    const std::string messages = user_messages(log);
+    EXPECT_EQ(std::count(messages.begin(), messages.end(), '\n'), 9);
+}
+
+std::vector<FieldError> errors_of(const json& shading) {
+    try {
+        parse_spec({{"scene", {{"type", "quads"}, {"shading", shading}}}, {"methods", {"b2f"}}});
+    } catch (const SpecError& error) {
+        return error.errors();
+    }
+    return {};
+}
+
+std::string pointer_of(const json& shading) {
+    const auto errors = errors_of(shading);
+    return errors.size() == 1 ? errors[0].pointer : std::to_string(errors.size()) + " errors";
+}
+
+TEST(GlslShading, IsAChoiceOfEveryScene) {
+    EXPECT_TRUE(errors_of({{"glsl", "return tint;"}}).empty());
+    EXPECT_EQ(pointer_of("glsl"), "/scene/shading");
+    EXPECT_EQ(pointer_of(json::array({"return tint;"})), "/scene/shading");
+    EXPECT_THAT(errors_of("glsl")[0].detail, testing::HasSubstr("4x4-textures-math, or an object with glsl"));
+    EXPECT_EQ(pointer_of(json::object()), "/scene/shading/glsl");
+    EXPECT_EQ(pointer_of({{"glsl", ""}}), "/scene/shading/glsl");
+    EXPECT_EQ(pointer_of({{"glsl", 3}}), "/scene/shading/glsl");
+    EXPECT_EQ(pointer_of({{"glsl", std::string(max_glsl_bytes + 1, ' ')}}), "/scene/shading/glsl");
+    EXPECT_TRUE(errors_of({{"glsl", std::string(max_glsl_bytes, ' ')}}).empty());
+    EXPECT_EQ(pointer_of({{"glsl", "return tint;"}, {"hlsl", ""}}), "/scene/shading/hlsl");
+    EXPECT_EQ(pointer_of({{"glsl", "}{"}}), "/scene/shading/glsl");
+    const Spec spec =
+        parse_spec({{"scene", {{"type", "quads"}, {"shading", {{"glsl", "return tint;"}}}}}, {"methods", {"b2f"}}});
+    EXPECT_EQ(parse_spec(spec.normalised).normalised, spec.normalised);
+}
+
+TEST(GlslShading, IsInTheSchemaAndTheSelfDescription) {
+    const json shading = spec_schema()["properties"]["scene"]["oneOf"][0]["properties"]["shading"];
+    ASSERT_EQ(shading["anyOf"].size(), 2u);
+    EXPECT_THAT(shading["anyOf"][0]["enum"].get<std::vector<std::string>>(), testing::Contains("1-texture"));
+    EXPECT_EQ(shading["anyOf"][1]["required"], json({"glsl"}));
+    EXPECT_EQ(shading["anyOf"][1]["properties"]["glsl"]["maxLength"], max_glsl_bytes);
+    for (const json& scene : describe_scenes())
+        for (const json& parameter : scene["parameters"])
+            if (parameter["name"] == "shading") {
+                EXPECT_EQ(parameter["kind"], "choice");
+                EXPECT_EQ(parameter["fields"][0]["name"], "glsl");
+            }
+}
+
+}  // namespace
+
+}  // namespace sheer
