@@ -77,6 +77,14 @@ Camera read_camera(const nlohmann::json& camera, const Sphere& bounds, const glm
             default_fov_y_deg};
 }
 
+nlohmann::json camera_json(const Camera& camera) {
+    const auto numbers = [](const glm::dvec3& vector) { return nlohmann::json{vector.x, vector.y, vector.z}; };
+    return {{"eye", numbers(camera.eye)},
+            {"target", numbers(camera.target)},
+            {"up", numbers(camera.up)},
+            {"fov_y_deg", camera.fov_y_deg}};
+}
+
 Sphere bounding_sphere(const std::vector<Vertex>& vertices) {
     if (vertices.empty()) return {};
     glm::dvec3 low(vertices.front().position), high = low;
@@ -103,6 +111,7 @@ void set_depths(Geometry& geometry, const glm::dmat4& view) {
 void look_through(Geometry& geometry, const Camera& camera, const Sphere& bounds, double aspect) {
     const glm::dmat4 view = camera.view();
     geometry.view_projection = glm::mat4(camera.projection(bounds, aspect) * view);
+    geometry.camera = camera_json(camera);
     set_depths(geometry, view);
 }
 

@@ -36,13 +36,16 @@ void check_camera(const nlohmann::json& scene, const std::string& pointer, std::
 /// touches the nearer edges of the picture.
 Camera read_camera(const nlohmann::json& camera, const Sphere& bounds, const glm::dvec3& direction, double aspect);
 
+/// The same as a field of a spec.
+nlohmann::json camera_json(const Camera& camera);
+
 /// Around the middle of the vertices' bounding box; not the smallest sphere, but close to it.
 Sphere bounding_sphere(const std::vector<Vertex>& vertices);
 
 /// Sets each primitive's depth to that of its middle (the mean of its vertices) ahead of the eye.
 void set_depths(Geometry& geometry, const glm::dmat4& view);
 
-/// Sets `view_projection` and the depths.
+/// Sets `view_projection`, `camera` and the depths.
 void look_through(Geometry& geometry, const Camera& camera, const Sphere& bounds, double aspect);
 
 }  // namespace sheer

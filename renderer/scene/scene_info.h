@@ -38,6 +38,7 @@ struct Geometry {
     std::vector<std::uint32_t> indices;  ///< triangles
     std::vector<Primitive> primitives;
     glm::mat4 view_projection{1.0f};
+    nlohmann::json camera;  ///< where it is looked at from, as the spec says it; null for scenes that have no camera
     std::optional<Picture> texture;  ///< square; in place of the four procedural textures
     std::optional<VolumeShading> volume;
     bool parallel = false;  ///< drawing the primitives in depth order is exact: none intersect, each has one depth

@@ -134,6 +134,25 @@ TEST(Camera, IsNullOrWholeInTheNormalisedSpec) {
         json({{"eye", {0.0, 1.0, 9.0}}, {"target", {0.0, 1.5, 0.0}}, {"up", {0.0, 1.0, 0.0}}, {"fov_y_deg", 40.0}}));
 }
 
+/// What a scene was framed by can be written into the spec, and shows the same picture.
+TEST(Camera, OfAGeometryGivesTheSamePictureAgain) {
+    for (const std::string type : {"foliage", "particles"}) {
+        json document = {{"scene", {{"type", type}, {"seed", 3}}}, {"methods", {"b2f"}}};
+        NoAssets assets;
+        const Spec framed = parse_spec(document);
+        const Geometry first = build_geometry(framed.scene, framed.image, assets);
+        document["scene"]["camera"] = first.camera;
+        const Spec placed = parse_spec(document);
+        const Geometry second = build_geometry(placed.scene, placed.image, assets);
+        EXPECT_EQ(first.view_projection, second.view_projection) << type;
+        EXPECT_EQ(first.vertices[0].position, second.vertices[0].position) << type;
+        EXPECT_EQ(first.camera, second.camera) << type;
+    }
+    const Spec quads = parse_spec({{"scene", {{"type", "quads"}, {"count", 1}}}, {"methods", {"b2f"}}});
+    NoAssets assets;
+    EXPECT_TRUE(build_geometry(quads.scene, quads.image, assets).camera.is_null());
+}
+
 TEST(Camera, IsDescribedAsOptional) {
     const json described = to_json({camera_parameter()}).front();
     EXPECT_EQ(described["kind"], "object");

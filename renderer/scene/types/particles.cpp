@@ -187,6 +187,7 @@ Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&
         add_sprite(geometry, sprite, view, random);
     }
     geometry.view_projection = glm::mat4(camera.projection(bounds, aspect));
+    geometry.camera = camera_json(camera);
     set_depths(geometry, glm::dmat4(1));
     geometry.parallel = true;
     return geometry;
