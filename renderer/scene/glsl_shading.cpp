@@ -216,6 +216,8 @@ bool read_log_line(const std::string& text, int& line, std::string& message) {
     if (!found) return false;
     line -= first_user_line - 1;
     message = text.substr(static_cast<std::size_t>(length));
+    const std::size_t name = message.find("sheer_own_work");
+    if (name != std::string::npos) message.replace(name, std::string_view("sheer_own_work").size(), "real_work");
     return true;
 }
 
@@ -235,8 +237,8 @@ GlslShading make_glsl_shading(const std::string& body) {
         shading.is_textured |= token.text == "sample_texture";
     }
     // On the user's own lines, so that no error can lie before the first or behind the last one.
-    shading.function = fmt::format("#line {}\nvec4 real_work(vec2 uv, vec4 tint) {{ {} }}\n#line 1\n", first_user_line,
-                                   LoopCounter(text, std::move(tokens)).run());
+    shading.function = fmt::format("#line {}\nvec4 sheer_own_work(vec2 uv, vec4 tint) {{ {} }}\n#line 1\n",
+                                   first_user_line, LoopCounter(text, std::move(tokens)).run());
     return shading;
 }
 

@@ -23,10 +23,10 @@ class GlslError : public std::runtime_error {
     GlslError(int line, const std::string& detail);
 };
 
-/// The user's own `vec4 real_work(vec2 uv, vec4 tint)`.
+/// The user's own shading, which shaders/scenes/glsl_shading.glsl makes a real_work of.
 struct GlslShading {
-    std::string function;    ///< GLSL that follows shaders/scenes/glsl_shading.glsl; its lines have the user's numbers
-    bool has_loops = false;  ///< each of them asks sheer_next() before an iteration
+    std::string function;      ///< GLSL of `vec4 sheer_own_work(vec2 uv, vec4 tint)`
+    bool has_loops = false;    ///< each of them asks sheer_next() before an iteration
     bool is_textured = false;  ///< it names sample_texture
 };
 

@@ -111,6 +111,7 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
 void Scene::add_own_shading(const Geometry& geometry, const nlohmann::json& parameters) {
     const GlslShading own = make_glsl_shading(parameters.at("shading").at("glsl"));
     m_counts_iterations = own.has_loops;
+    m_reads = 1;
     m_shading_source += define("SHEER_TEXTURED", own.is_textured) + define("SHEER_ITERATIONS", iterations_per_fragment);
     m_shading_source += gl::shader_file("scenes/glsl_shading.glsl");
     m_shading_source += own.function;

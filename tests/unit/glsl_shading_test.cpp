@@ -13,7 +13,7 @@ using nlohmann::json;
 
 /// The function that is made of `body`, without the lines before and after it.
 std::string rewritten(const std::string& body) {
-    const std::string begin = "#line 100000\nvec4 real_work(vec2 uv, vec4 tint) { ", end = " }\n#line 1\n";
+    const std::string begin = "#line 100000\nvec4 sheer_own_work(vec2 uv, vec4 tint) { ", end = " }\n#line 1\n";
     const std::string function = make_glsl_shading(body).function;
     EXPECT_TRUE(function.starts_with(begin) && function.ends_with(end)) << function;
     return function.substr(begin.size(), function.size() - begin.size() - end.size());
@@ -129,8 +129,8 @@ TEST(GlslShading, FindsTheUsersLinesInALog) {
                             "0:12(3): error: not the user's\n"
                             "0:100002(10): warning: `a' used uninitialized\n"
                             "0:100002(10): error: `b' undeclared\n"
-                            "0:100013(2): error: no matching function for call to `f()'\n"),
-              "line 3: `b' undeclared\nline 14: no matching function for call to `f()'");
+                            "0:100013(2): error: no return in function `sheer_own_work'\n"),
+              "line 3: `b' undeclared\nline 14: no return in function `real_work'");
     EXPECT_EQ(user_messages("0(100002) : error C1503: undefined variable \"b\"\n0(9) : error C0000: syntax error\n"),
               "line 3: error C1503: undefined variable \"b\"");
     EXPECT_EQ(user_messages("ERROR: 0:100006: 'b' : undeclared identifier\nERROR: 0:7: 'c' : undeclared\n"),
