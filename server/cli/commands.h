@@ -17,6 +17,7 @@ void add_docs(CLI::App& app, int& exit_code);         ///< for ./dev docs; not s
 void add_render(CLI::App& app, int& exit_code);       ///< the worker's child; not shown in the help
 void add_check_asset(CLI::App& app, int& exit_code);  ///< the service's child; not shown in the help
 void add_serve(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 void add_worker(CLI::App& app, int& exit_code);  ///< started by serve; not shown in the help
 
 }  // namespace sheer::cli

@@ -1,0 +1,41 @@
+// A window on a spec's scene.
+#include <fmt/format.h>
+
+#include "server/cli/commands.h"
+#include "server/cli/rendering.h"
+#include "server/view/viewer.h"
+
+namespace sheer::cli {
+
+namespace {
+
+struct Options {
+    std::string spec, screenshot;
+    gl::ContextRequest context;
+};
+
+int run(const Options& options) {
+    const Spec spec = load_spec(options.spec);
+    NoAssets assets;
+    view::Viewer viewer(spec, options.context, assets, options.screenshot);
+    fmt::print("H or F1 in the window tells the keys.\n");
+    std::fflush(stdout);
+    viewer.run();
+    return exit_ok;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("view", "Look at a spec's scene in a window: orbit, switch methods, split");
+    auto options = std::make_shared<Options>();
+    command->add_option("spec", options->spec, "The spec, a JSON file (see configs/specs)")->required();
+    command->add_option("--screenshot", options->screenshot,
+                        "PNG file for what is shown when the window closes, and for the key P");
+    command->add_option("--without-workaround", options->context.disabled_workarounds,
+                        "Name of a driver workaround to switch off");
+    command->footer(std::string("Keys:\n") + view::keys_text);
+    command->callback([options, &exit_code] { exit_code = guarded([&] { return run(*options); }); });
+}
+
+}  // namespace sheer::cli

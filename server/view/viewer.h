@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/methods/method.h"
+#include "renderer/scene/assets.h"
+#include "server/view/window.h"
+
+namespace sheer::view {
+
+/// What `sheer view` says for the key H.
+extern const char* const keys_text;
+
+/// Shows a spec's scene in a window: one method, or two side by side, drawn anew after each change.
+class Viewer {
+  public:
+    /// Throws SpecError for a scene that cannot be built, Unsupported without a display. `screenshot` is the PNG file
+    /// that P and the end of run() write; "" for sheer-view.png by P alone.
+    Viewer(const Spec& spec, const gl::ContextRequest& request, AssetReader& assets, std::string screenshot);
+
+    /// Until the window is closed. Throws RenderError.
+    void run();
+
+  private:
+    /// Half of the window, or all of it.
+    struct Side {
+        std::size_t choice = 0;  ///< index into m_choices
+        std::unique_ptr<Target> target;
+        std::unique_ptr<Method> method;
+        bool is_drawn = false;  ///< the target holds what the method makes of the scene
+        std::string unsupported;
+        double frame_ms = 0;
+        /// Something it depends on is about to change.
+        void renew() {
+            method.reset();
+            is_drawn = false;
+            unsupported.clear();
+        }
+    };
+
+    void handle(const KeyPress& press);
+    void handle(const MouseMove& move);
+    void handle(const Wheel& wheel);
+    void choose(std::size_t choice, bool left);
+    void scale_threshold(double factor);
+    void look_through(const nlohmann::json& camera);
+
+    void draw();
+    void build_scene();
+    void draw_side(Side& side);
+    void make_method(Side& side);
+    void show_picture() const;
+    void show_part(const Side& side, int begin_px, int end_px) const;
+    void show_divider() const;
+    std::string title() const;
+    std::string title_of(const Side& side) const;
+    void write_screenshot() const;
+
+    Spec m_spec;
+    AssetReader& m_assets;
+    std::string m_screenshot;
+    bool m_writes_at_end;
+    Window m_window;
+    gl::FrameTimer m_timer;
+    std::vector<MethodSpec> m_choices;  ///< the spec's methods, then its reference
+    nlohmann::json m_first_camera;      ///< null for a scene without one
+    std::unique_ptr<Scene> m_scene;     ///< null: has to be built
+    std::array<Side, 2> m_sides;        ///< left, right; without the split the left one is all
+    bool m_split = false;
+    int m_divider_px = 0;  ///< in the window's picture
+};
+
+}  // namespace sheer::view
