@@ -1,6 +1,7 @@
 // A window on a spec's scene.
 #include <fmt/format.h>
 
+#include "renderer/assets/file_assets.h"
 #include "server/cli/commands.h"
 #include "server/cli/rendering.h"
 #include "server/view/viewer.h"
@@ -16,7 +17,7 @@ struct Options {
 
 int run(const Options& options) {
     const Spec spec = load_spec(options.spec);
-    NoAssets assets;
+    FileAssets assets = assets_in_folder(std::filesystem::path(options.spec).parent_path());
     view::Viewer viewer(spec, options.context, assets, options.screenshot);
     fmt::print("H or F1 in the window tells the keys.\n");
     std::fflush(stdout);
