@@ -44,7 +44,8 @@ TEST_F(UploadCheckTest, WhateverElseHappensIsARefusal) {
     EXPECT_THAT(check_with(R"(echo '{"facts": {}}'; exit 3)").refusal, HasSubstr("dies of it"));
     EXPECT_THAT(check_with("sleep 60", "", 50ms).refusal, HasSubstr("longer than 0.05 s"));
     for (const char* line : {"", "[]", "{", R"({"facts": 1})", R"({"refusal": {}})"})
-        EXPECT_THAT(check_with("echo '" + std::string(line) + "'").refusal, HasSubstr("nothing that can be understood")) << line;
+        EXPECT_THAT(check_with("echo '" + std::string(line) + "'").refusal, HasSubstr("nothing that can be understood"))
+            << line;
 }
 
 class AssetStoreTest : public StoreTest {
