@@ -40,7 +40,7 @@ struct MethodResult {
 
 /// One point of the sweep.
 struct Run {
-    nlohmann::json point = nlohmann::json::object();
+    SweepPoint point = nlohmann::json::object();
     MethodSpec reference;
     Image reference_image;
     std::optional<double> residual;  ///< greatest difference of the two references, in 0..1
@@ -61,7 +61,8 @@ struct Comparison {
 /// How far a comparison is. Called from the rendering thread; may throw Cancelled.
 using ProgressFunction = std::function<void(double fraction, const std::string& stage)>;
 
-/// Renders every method of the spec and its reference, times them, and measures the difference.
+/// At every point of the sweep: renders every method of the spec and its reference, times them, and measures the
+/// difference.
 /// A method that this device cannot run is reported as unsupported. Throws RenderError if rendering fails as a whole.
 /// Throws SpecError for a file of the spec that `assets` cannot read.
 Comparison compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress);

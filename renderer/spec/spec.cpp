@@ -11,6 +11,7 @@
 #include "renderer/scene/scene_info.h"
 #include "renderer/spec/names.h"
 #include "renderer/spec/param.h"
+#include "renderer/spec/suites.h"
 
 namespace sheer {
 
@@ -46,7 +47,8 @@ std::vector<Param> check_fields() {
                                max_text_bytes);
     Param method = Param::text("method", "label or id of a method", "", max_text_bytes);
     return {metric.required(), method.required(), optional_number("min", "least value that passes"),
-            optional_number("max", "greatest value that passes")};
+            optional_number("max", "greatest value that passes"),
+            any("at", "values by pointer: only the points of the sweep that have them", json::object())};
 }
 
 /// The fields of a spec; scene, methods and reference are read by their own descriptions.
@@ -71,6 +73,11 @@ std::vector<Param> spec_fields() {
                       {Param::integer("warmup", "frames before timing", "frames", 1, 1, 100),
                        Param::integer("rounds", "timed frames of each method", "frames", 10, 1, 1000),
                        Param::number("max_seconds", "no round begins after this", "s", 60, 0.001, 3600)}),
+        optional_text("suite", "id of the published measurement that this one repeats, see GET /suites"),
+        any("sweep",
+            "an array of axes, each {pointer, values} or {points}: the comparison is made at every point of their "
+            "Cartesian product",
+            json::array()),
         Param::list("checks", "what must hold for the report to pass", check_fields(), 0, 256),
     };
 }
@@ -109,10 +116,14 @@ class SpecReader {
         normalised["reference"].erase("label");
         if (m_errors.empty() || !spec.methods.empty()) {
             read_baseline(spec);
-            read_checks(spec);
         }
         const json& timing = normalised["timing"];
         spec.timing = {timing["warmup"], timing["rounds"], timing["max_seconds"]};
+        read_suite(spec);
+        if (m_errors.empty()) {
+            read_points(spec);
+            read_checks(spec);
+        }
         if (!m_errors.empty()) throw SpecError(std::move(m_errors));
         return spec;
     }
@@ -257,6 +268,35 @@ class SpecReader {
         baseline = spec.baseline;
     }
 
+    void read_suite(Spec& spec) {
+        const json& suite = spec.normalised["suite"];
+        if (suite.is_null()) return;
+        if (const Suite* found = find_suite(suite)) {
+            spec.suite = found->id;
+        } else {
+            error("/suite", fmt::format("must be one of {}, not {}", joined_ids(all_suites()), suite.dump()));
+        }
+    }
+
+    /// Every point is read as a spec of its own, so that a value is refused where it stands in the sweep.
+    void read_points(Spec& spec) {
+        const json& sweep = spec.normalised["sweep"];
+        spec.points = read_sweep(sweep, spec.normalised, m_errors);
+        if (!m_errors.empty() || sweep.empty()) return;
+        for (const SweepPoint& point : spec.points) {
+            try {
+                SpecReader(m_rule).read(at_point(spec.normalised, point));
+            } catch (const SpecError& wrong) {
+                for (const FieldError& field : wrong.errors()) {
+                    const std::string pointer = sweep_pointer(sweep, field.pointer);
+                    const std::string detail = fmt::format("at {}: {} {}", point.dump(), field.pointer, field.detail);
+                    if (std::ranges::none_of(m_errors, [&](const FieldError& known) { return known.detail == detail; }))
+                        error(pointer, detail);
+                }
+            }
+        }
+    }
+
     void read_checks(Spec& spec) {
         const std::vector<std::string> names = metric_names();
         json& checks = spec.normalised["checks"];
@@ -268,8 +308,15 @@ class SpecReader {
                 error(pointer + "/metric", fmt::format("must be one of {}", fmt::join(names, ", ")));
             if (check["min"].is_null() && check["max"].is_null()) error(pointer, "needs a min or a max");
             check["method"] = resolve_method(spec, check["method"], pointer + "/method");
-            spec.checks.push_back({check["metric"], check["method"], check["min"], check["max"]});
+            if (!matches_any(spec.points, check["at"]))
+                error(pointer + "/at", "must be values by pointer that a point of the sweep has");
+            spec.checks.push_back({check["metric"], check["method"], check["min"], check["max"], check["at"]});
         }
+    }
+
+    static bool matches_any(const std::vector<SweepPoint>& points, const json& at) {
+        return at.is_object() &&
+               std::ranges::any_of(points, [&](const SweepPoint& point) { return lies_at(point, at); });
     }
 
     const AssetRule& m_rule;
@@ -291,6 +338,10 @@ Spec parse_spec_text(const std::string& text) {
         const std::string detail = message.substr(std::min(message.find("] ") + 2, message.size()));
         throw SpecError(std::vector<FieldError>{{"", "is not JSON: " + detail}});
     }
+}
+
+Spec spec_at(const Spec& spec, const SweepPoint& point) {
+    return parse_spec(at_point(spec.normalised, point));
 }
 
 json spec_schema() {

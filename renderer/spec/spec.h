@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/errors.h"
+#include "renderer/spec/sweep.h"
 
 namespace sheer {
 
@@ -36,6 +37,7 @@ struct CheckSpec {
     std::string metric;  ///< "flip.mean", "rmse", "speedup", ...
     std::string method;  ///< label
     nlohmann::json min = nullptr, max = nullptr;
+    SweepPoint at;  ///< holds only where a point of the sweep has these values; {}: everywhere
 };
 
 /// A comparison to make, valid and with defaults filled in.
@@ -49,7 +51,9 @@ struct Spec {
     std::string baseline;  ///< label of one of `methods`
     TimingSpec timing;
     std::vector<CheckSpec> checks;
-    nlohmann::json normalised;  ///< the whole as JSON; parsing it gives the same spec
+    std::string suite;  ///< id of the suite that it measures, or ""
+    std::vector<SweepPoint> points;  ///< at least one
+    nlohmann::json normalised;       ///< the whole as JSON; parsing it gives the same spec
 
     /// SHA-256 is over this text: keys sorted, no spaces.
     std::string canonical_text() const { return normalised.dump(); }
@@ -63,6 +67,9 @@ using AssetRule = std::function<std::string(const AssetReference& reference)>;
 Spec parse_spec(const nlohmann::json& document, const AssetRule& rule = {});
 /// The same from text; text that is not JSON gives one error at pointer "" that says where it breaks.
 Spec parse_spec_text(const std::string& text);
+
+/// The spec of one point of its sweep, without sweep and checks.
+Spec spec_at(const Spec& spec, const SweepPoint& point);
 
 /// JSON schema (draft 7) of a spec, made from the descriptions of methods and scenes.
 nlohmann::json spec_schema();

@@ -1,0 +1,23 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace sheer {
+
+/// The number that a metric's name means in a result of a report, such as flip.mean, timing.median or speedup; null
+/// where it was not measured.
+nlohmann::json measured(const nlohmann::json& result, const std::string& metric);
+
+/// A number and how far it may be off; without an interval low and high are the number.
+struct Measured {
+    double value, low, high;
+};
+
+/// None where it was not measured.
+std::optional<Measured> measured_with_interval(const nlohmann::json& result, const std::string& metric);
+
+/// The result of a run with this label; null if there is none.
+const nlohmann::json* find_result(const nlohmann::json& run, const std::string& label);
+
+}  // namespace sheer

@@ -1,0 +1,59 @@
+#include "renderer/spec/suites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "embedded_suites.h"
+#include "renderer/spec/names.h"
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+std::vector<Suite> load_suites() {
+    std::vector<Suite> suites;
+    for (const EmbeddedFile& file : embedded_suites()) {
+        const json document = json::parse(file.bytes);
+        suites.push_back({document.at("id"), document.at("title"), document.at("source"), document.at("device"),
+                          document.at("spec"), document.at("published"), document.at("trends")});
+    }
+    std::ranges::sort(suites, {}, &Suite::id);
+    return suites;
+}
+
+}  // namespace
+
+const std::vector<Suite>& all_suites() {
+    static const std::vector<Suite> suites = load_suites();
+    return suites;
+}
+
+const Suite* find_suite(const std::string& id) {
+    return find_by_id(all_suites(), id);
+}
+
+json suite_spec(const Suite& suite, double scale) {
+    if (!(scale > 0 && scale <= 1)) throw std::invalid_argument("a scale must be over 0 and at most 1");
+    json spec = suite.spec;
+    for (const char* side : {"width", "height"})
+        spec["image"][side] = std::max(1.0, std::round(spec["image"][side].get<double>() * scale));
+    return spec;
+}
+
+json describe_suites() {
+    json all = json::array();
+    for (const Suite& suite : all_suites())
+        all.push_back({{"id", suite.id},
+                       {"title", suite.title},
+                       {"source", suite.source},
+                       {"device", suite.device},
+                       {"spec", suite.spec},
+                       {"published_count", suite.published.size()},
+                       {"trend_count", suite.trends.size()}});
+    return all;
+}
+
+}  // namespace sheer

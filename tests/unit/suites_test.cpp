@@ -1,0 +1,182 @@
+// The suites that there are, and what a report says about one. Expectations are worked out by hand from made-up runs.
+#include "renderer/spec/suites.h"
+
+#include <gmock/gmock.h>
+
+#include "renderer/report/frontier.h"
+#include "renderer/report/measured.h"
+#include "renderer/report/suite.h"
+#include "renderer/spec/spec.h"
+
+namespace sheer {
+
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+json result(const std::string& label, double speedup, double low, double high, double time_ms = 1, double error = 0) {
+    return {{"label", label},
+            {"status", "ok"},
+            {"speedup", {{"value", speedup}, {"ci95", {low, high}}}},
+            {"timing", {{"median", time_ms}, {"ci95", nullptr}}},
+            {"metrics", {{"flip", {{"mean", error}}}}}};
+}
+
+json run(const json& point, const json& results) {
+    return {{"point", point}, {"results", results}};
+}
+
+Suite suite(const json& trend) {
+    Suite suite;
+    suite.id = "test";
+    suite.published =
+        json::array({{{"at", {{"/scene/count", 16}}}, {"method", "f2bd"}, {"metric", "speedup"}, {"value", 1.06}}});
+    suite.trends = json::array({trend});
+    return suite;
+}
+
+json trend(const std::string& kind, const json& methods, const json& more = json::object()) {
+    json trend = {{"text", "it is so"}, {"kind", kind}, {"metric", "speedup"}, {"methods", methods}};
+    trend.update(more);
+    return trend;
+}
+
+/// f2bd against f2b: clearly slower at 1 quad, not resolved at 16, clearly faster at 64.
+const json runs = json::array(
+    {run({{"/scene/count", 1}}, json::array({result("f2b", 0.9, 0.88, 0.92), result("f2bd", 0.5, 0.45, 0.55)})),
+     run({{"/scene/count", 16}}, json::array({result("f2b", 1.0, 0.9, 1.1), result("f2bd", 1.05, 0.95, 1.2)})),
+     run({{"/scene/count", 64}}, json::array({result("f2b", 1.0, 0.95, 1.05), result("f2bd", 2.0, 1.8, 2.2)}))});
+
+std::string verdict(const json& judged_trend) {
+    return suite_report(suite(judged_trend), runs)["trends"][0]["verdict"];
+}
+
+json at(const std::vector<int>& counts) {
+    json points = json::array();
+    for (const int count : counts) points.push_back({{"/scene/count", count}});
+    return {{"at", points}};
+}
+
+TEST(Suites, AreThePapersSevenTables) {
+    ASSERT_EQ(all_suites().size(), 7u);
+    for (const Suite& one : all_suites()) {
+        SCOPED_TRACE(one.id);
+        const Spec spec = parse_spec(one.spec);
+        EXPECT_EQ(spec.suite, one.id);
+        EXPECT_EQ(spec.image.width_px, 512);
+        for (const json& figure : one.published) {
+            EXPECT_TRUE(std::ranges::any_of(spec.points, [&](const json& point) {
+                return lies_at(point, figure["at"]);
+            })) << figure.dump();
+            EXPECT_TRUE(std::ranges::any_of(spec.methods, [&](const MethodSpec& m) {
+                return m.label == figure["method"];
+            })) << figure.dump();
+        }
+        for (const json& judged : one.trends)
+            for (const auto& method : judged["methods"])
+                EXPECT_TRUE(std::ranges::any_of(spec.methods, [&](const MethodSpec& m) { return m.label == method; }))
+                    << judged.dump();
+    }
+}
+
+TEST(Suites, HoldThePublishedFigures) {
+    const Suite* table1 = find_suite("Paper-Table-1");
+    ASSERT_TRUE(table1);
+    EXPECT_EQ(table1->published.size(), 33u);
+    const json heaviest = {{"/scene/shading", "4x4-textures-math"}, {"/scene/texture/size", 1024}};
+    double f2bx = 0;
+    for (const json& figure : table1->published)
+        if (figure["at"] == heaviest && figure["method"] == "f2bx") f2bx = figure["value"];
+    EXPECT_EQ(f2bx, 41.55);
+    EXPECT_EQ(find_suite("paper-table-8"), nullptr);
+}
+
+TEST(Suites, ScaleThePictureAlone) {
+    const Spec spec = parse_spec(suite_spec(*find_suite("paper-table-4"), 0.25));
+    EXPECT_EQ(spec.image.width_px, 128);
+    EXPECT_EQ(spec.image.height_px, 128);
+    EXPECT_EQ(spec.scene["texture"]["size"], 1024);
+    EXPECT_THROW(suite_spec(*find_suite("paper-table-4"), 0), std::invalid_argument);
+    EXPECT_THROW(suite_spec(*find_suite("paper-table-4"), 1.5), std::invalid_argument);
+}
+
+TEST(Suites, UnknownOneIsRefused) {
+    json spec = find_suite("paper-table-7")->spec;
+    spec["suite"] = "paper-table-9";
+    try {
+        parse_spec(spec);
+        FAIL();
+    } catch (const SpecError& error) {
+        EXPECT_EQ(error.errors()[0].pointer, "/suite");
+    }
+}
+
+TEST(SuiteReport, SetsPublishedBesideMeasured) {
+    const json figure = suite_report(suite(trend("above", {"f2bd", "f2b"})), runs)["figures"][0];
+    EXPECT_EQ(figure["published"], 1.06);
+    EXPECT_EQ(figure["measured"], 1.05);
+    EXPECT_EQ(figure["ci95"], json({0.95, 1.2}));
+}
+
+TEST(SuiteReport, WhatWasNotMeasuredIsNull) {
+    const json figure = suite_report(suite(trend("above", {"f2bd", "f2b"})), json::array({runs[0]}))["figures"][0];
+    EXPECT_TRUE(figure["measured"].is_null());
+}
+
+TEST(SuiteReport, AboveHoldsFailsOrIsOpen) {
+    EXPECT_EQ(verdict(trend("above", {"f2bd", "f2b"}, at({64}))), "holds");
+    EXPECT_EQ(verdict(trend("above", {"f2bd", "f2b"}, at({16, 64}))), "not resolved");
+    EXPECT_EQ(verdict(trend("above", {"f2bd", "f2b"})), "fails");
+    EXPECT_EQ(verdict(trend("above", {"f2bd", "b2f"})), "not resolved") << "b2f was not measured";
+}
+
+TEST(SuiteReport, GrowthIsJudgedBetweenEndsAndSteps) {
+    EXPECT_EQ(verdict(trend("grows", {"f2bd"})), "holds");
+    EXPECT_EQ(verdict(trend("grows", {"f2b"}, at({16, 64}))), "not resolved");
+    EXPECT_EQ(verdict(trend("grows", {"f2bd"}, at({64, 1}))), "fails");
+    EXPECT_EQ(verdict(trend("grows", {"f2bd"}, at({1, 64, 16}))), "fails") << "the last step is a resolved fall";
+    EXPECT_EQ(verdict(trend("grows", {"f2bd"}, at({1}))), "not resolved");
+}
+
+TEST(SuiteReport, RangeHoldsForWholeIntervals) {
+    EXPECT_EQ(verdict(trend("within", {"f2bd"}, {{"range", {0, 1}}, {"at", {{{"/scene/count", 1}}}}})), "holds");
+    EXPECT_EQ(verdict(trend("within", {"f2bd"}, {{"range", {0, 1}}, {"at", {{{"/scene/count", 16}}}}})),
+              "not resolved");
+    EXPECT_EQ(verdict(trend("within", {"f2bd"}, {{"range", {0, 1}}})), "fails");
+}
+
+TEST(Frontier, NamesWhatIsDominatedAndByWhom) {
+    const json measured_run = run(
+        json::object(), json::array({result("b2f", 1, 1, 1, 100, 0.0), result("f2b", 1, 1, 1, 110, 0.0),
+                                     result("f2bd", 4, 3.5, 4.5, 25, 0.004), result("f2bd 0.5", 5, 4.5, 5.5, 20, 0.2),
+                                     result("meshkin", 3, 2.5, 3.5, 30, 0.3)}));
+    const json answer = frontier(measured_run, "b2f");
+    EXPECT_EQ(answer["methods"], json({"f2bd 0.5", "f2bd", "b2f"}));
+    ASSERT_EQ(answer["dominated"].size(), 2u);
+    EXPECT_EQ(answer["dominated"][0], json({{"method", "meshkin"}, {"by", "f2bd 0.5"}}));
+    EXPECT_EQ(answer["dominated"][1], json({{"method", "f2b"}, {"by", "b2f"}}));
+    EXPECT_EQ(answer["fastest_under"], json::array({{{"error", 0.001}, {"method", "b2f"}},
+                                                    {{"error", 0.01}, {"method", "f2bd"}},
+                                                    {{"error", 0.05}, {"method", "f2bd"}}}));
+    EXPECT_EQ(answer["closest_within"], json::array({{{"time_ms", 100.0}, {"method", "b2f"}},
+                                                     {{"time_ms", 50.0}, {"method", "f2bd"}},
+                                                     {{"time_ms", 25.0}, {"method", "f2bd"}}}));
+    EXPECT_THAT(answer["sentences"][1], HasSubstr("f2bd with an error of 0.004 in 25 ms"));
+    EXPECT_THAT(answer["sentences"][1], HasSubstr("[3.50, 4.50]"));
+}
+
+TEST(Frontier, EqualsDoNotDominateEachOther) {
+    const json twins = run(json::object(), json::array({result("a", 1, 1, 1, 10, 0.1), result("b", 1, 1, 1, 10, 0.1)}));
+    EXPECT_EQ(frontier(twins, "a")["methods"], json({"a", "b"}));
+}
+
+TEST(Frontier, NeedsTwoMethodsWithTimeAndError) {
+    json bound = result("f2bx", 9, 8, 10);
+    bound["metrics"] = nullptr;
+    EXPECT_TRUE(frontier(run(json::object(), json::array({result("b2f", 1, 1, 1), bound})), "b2f").is_null());
+}
+
+}  // namespace
+
+}  // namespace sheer
