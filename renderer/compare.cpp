@@ -28,8 +28,8 @@ constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0
 /// The stages of one point; each fills in its part of the run.
 class Comparer {
   public:
-    Comparer(Spec spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress)
-        : m_spec(std::move(spec)), m_context(context), m_assets(assets), m_progress(progress), m_timer(context) {}
+    Comparer(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress)
+        : m_spec(spec), m_context(context), m_assets(assets), m_progress(progress), m_timer(context) {}
 
     Run run() {
         m_progress(0, "building the scene");
@@ -212,7 +212,7 @@ class Comparer {
         m_progress(from + (to - from) * static_cast<double>(index) / static_cast<double>(count), stage);
     }
 
-    const Spec m_spec;
+    const Spec& m_spec;
     gl::Context& m_context;
     AssetReader& m_assets;
     const ProgressFunction& m_progress;
@@ -222,21 +222,26 @@ class Comparer {
 
 }  // namespace
 
-Comparison compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress) {
-    Comparison comparison;
-    comparison.device = context.device();
-    comparison.workarounds = context.workarounds().names();
-    const double count = static_cast<double>(spec.points.size());
+Device describe_device(const gl::Context& context) {
+    return {context.device(), context.workarounds().names()};
+}
+
+void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress,
+             const RunFunction& take) {
+    const double share = 1.0 / static_cast<double>(spec.points.size());
+    double begin = 0;
     for (const SweepPoint& point : spec.points) {
-        const double begin = static_cast<double>(comparison.runs.size()) / count;
         const std::string where = describe_point(point);
         const ProgressFunction point_progress = [&](double fraction, const std::string& stage) {
-            progress(begin + fraction / count, where.empty() ? stage : where + ": " + stage);
+            progress(begin + fraction * share, where.empty() ? stage : where + ": " + stage);
         };
-        comparison.runs.push_back(Comparer(spec_at(spec, point), context, assets, point_progress).run());
-        comparison.runs.back().point = point;
+        const Spec point_spec = spec_at(spec, point);
+        Run run = Comparer(point_spec, context, assets, point_progress).run();
+        run.point = point;
+        run.image = point_spec.image;
+        take(run);
+        begin += share;
     }
-    return comparison;
 }
 
 }  // namespace sheer

@@ -41,6 +41,7 @@ struct MethodResult {
 /// One point of the sweep.
 struct Run {
     SweepPoint point = nlohmann::json::object();
+    ImageSpec image;
     MethodSpec reference;
     Image reference_image;
     std::optional<double> residual;  ///< greatest difference of the two references, in 0..1
@@ -52,19 +53,23 @@ struct Run {
     int rounds_done = 0;
 };
 
-struct Comparison {
-    gl::DeviceInfo device;
+/// What a comparison runs on.
+struct Device {
+    gl::DeviceInfo info;
     std::vector<std::string> workarounds;
-    std::vector<Run> runs;
 };
+Device describe_device(const gl::Context& context);
 
 /// How far a comparison is. Called from the rendering thread; may throw Cancelled.
 using ProgressFunction = std::function<void(double fraction, const std::string& stage)>;
+/// Takes a run when it is finished. Its pictures are freed afterwards: those of a whole sweep would not fit.
+using RunFunction = std::function<void(const Run& run)>;
 
 /// At every point of the sweep: renders every method of the spec and its reference, times them, and measures the
 /// difference.
 /// A method that this device cannot run is reported as unsupported. Throws RenderError if rendering fails as a whole.
 /// Throws SpecError for a file of the spec that `assets` cannot read.
-Comparison compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress);
+void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress,
+             const RunFunction& take);
 
 }  // namespace sheer

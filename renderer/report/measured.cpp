@@ -8,7 +8,8 @@ using nlohmann::json;
 
 json measured(const json& result, const std::string& metric) {
     if (metric == "speedup") return result["speedup"].is_null() ? json() : result["speedup"]["value"];
-    const bool beside_metrics = metric.starts_with("timing.") || metric.starts_with("fragments.");
+    const bool beside_metrics =
+        metric.starts_with("timing.") || metric.starts_with("fragments.") || metric == "memory_bytes";
     json value = beside_metrics ? result : result["metrics"];
     for (std::size_t begin = 0; begin <= metric.size() && !value.is_null();) {
         const std::size_t end = std::min(metric.find('.', begin), metric.size());

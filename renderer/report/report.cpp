@@ -12,7 +12,10 @@
 #include <memory>
 #include <stdexcept>
 
+#include "renderer/report/frontier.h"
+#include "renderer/report/measured.h"
 #include "renderer/report/picture_file.h"
+#include "renderer/report/suite.h"
 #include "renderer/report/timing.h"
 #include "version.h"
 
@@ -37,39 +40,46 @@ std::string file_name(const std::string& label) {
     return name;
 }
 
-class ReportMaker {
-  public:
-    ReportMaker(const Spec& spec, const Comparison& comparison, BlobSink& sink)
-        : m_spec(spec), m_comparison(comparison), m_sink(sink), m_timings(comparison, spec.baseline) {}
+json device_json(const Device& device) {
+    json object = gl::to_json(device.info);
+    object["cpu"] = cpu_name();
+    object["workarounds"] = device.workarounds;
+    return object;
+}
 
-    json make(const std::string& created_at) {
-        json report = {{"status", "done"},          {"progress", 1.0},
-                       {"error", nullptr},          {"created_at", created_at},
-                       {"spec", m_spec.normalised}, {"spec_sha256", sha256_hex(m_spec.canonical_text())},
-                       {"device", device()},        {"provenance", provenance()}};
-        report["runs"] = json::array();
-        for (const Run& run : m_comparison.runs) report["runs"].push_back(run_json(run));
-        report["checks"] = checks(report["runs"]);
-        report["verdict"] = verdict(report["checks"]);
-        report["finished_at"] = utc_now();
-        return report;
+/// A run as JSON; its pictures go into the sink.
+class RunWriter {
+  public:
+    /// `prefix` comes before the names of the pictures.
+    RunWriter(const Spec& spec, const Run& run, bool software, BlobSink& sink, const std::string& prefix)
+        : m_spec(spec), m_run(run), m_sink(sink), m_prefix(prefix), m_timings(run, spec.baseline, software) {}
+
+    json write() const {
+        json reference = {{"method", m_run.reference.id},
+                          {"parameters", m_run.reference.parameters},
+                          {"images", pictures(m_run.reference_image, "reference-" + m_run.reference.id, true)},
+                          {"residual", {{"depth_peeling", m_run.residual ? json(*m_run.residual) : json()}}}};
+        if (!m_run.residual) reference["residual_reason"] = m_run.no_residual_reason;
+        json results = json::array();
+        for (std::size_t i = 0; i < m_run.results.size(); ++i) {
+            const MethodResult& result = m_run.results[i];
+            results.push_back(result_json(result, fmt::format("{}-{}", i + 1, result.method.label)));
+        }
+        json run = {{"point", m_run.point},
+                    {"reference", reference},
+                    {"rounds", {{"asked", m_spec.timing.rounds}, {"done", m_run.rounds_done}}},
+                    {"noise_floor", m_timings.noise()},
+                    {"results", results}};
+        run["frontier"] = frontier(run, m_spec.baseline);
+        return run;
     }
 
   private:
-    json device() const {
-        json device = gl::to_json(m_comparison.device);
-        device["cpu"] = cpu_name();
-        device["workarounds"] = m_comparison.workarounds;
-        return device;
-    }
-
-    static json provenance() {
-        return {{"version", version}, {"commit", commit}, {"rerun", "sheer compare SPEC.json"}};
-    }
-
     json put(const std::string& bytes, const std::string& name, const std::string& media_type) const {
         const std::string sha256 = sha256_hex(bytes);
-        return {{"sha256", sha256}, {"url", m_sink.put(sha256, bytes, name, media_type)}, {"media_type", media_type}};
+        return {{"sha256", sha256},
+                {"url", m_sink.put(sha256, bytes, m_prefix + name, media_type)},
+                {"media_type", media_type}};
     }
 
     json pictures(const Image& image, const std::string& label, bool linear) const {
@@ -79,25 +89,7 @@ class ReportMaker {
         return all;
     }
 
-    json run_json(const Run& run) const {
-        json reference = {{"method", run.reference.id},
-                          {"parameters", run.reference.parameters},
-                          {"images", pictures(run.reference_image, "reference-" + run.reference.id, true)},
-                          {"residual", {{"depth_peeling", run.residual ? json(*run.residual) : json()}}}};
-        if (!run.residual) reference["residual_reason"] = run.no_residual_reason;
-        json results = json::array();
-        for (std::size_t i = 0; i < run.results.size(); ++i) {
-            const MethodResult& result = run.results[i];
-            results.push_back(result_json(run, result, fmt::format("{}-{}", i + 1, result.method.label)));
-        }
-        return {{"point", run.point},
-                {"reference", reference},
-                {"rounds", {{"asked", m_spec.timing.rounds}, {"done", run.rounds_done}}},
-                {"noise_floor", m_timings.noise(run)},
-                {"results", results}};
-    }
-
-    json result_json(const Run& run, const MethodResult& result, const std::string& name) const {
+    json result_json(const MethodResult& result, const std::string& name) const {
         json object = {{"method", result.method.id},
                        {"label", result.method.label},
                        {"parameters", result.method.parameters},
@@ -105,15 +97,15 @@ class ReportMaker {
                        {"reason", result.reason.empty() ? json() : json(result.reason)},
                        {"images", json::object()},
                        {"timing", nullptr},
-                       {"speedup", m_timings.speedup(run, result)},
+                       {"speedup", m_timings.speedup(result)},
                        {"fragments", nullptr},
                        {"metrics", nullptr},
                        {"memory_bytes", nullptr}};
         if (result.status != "ok") return object;
-        object["images"] = pictures(result.image, name, m_spec.image.format != PixelFormat::rgba8);
-        object["images"].update(count_pictures(run, result, name));
+        object["images"] = pictures(result.image, name, m_run.image.format != PixelFormat::rgba8);
+        object["images"].update(count_pictures(result, name));
         object["timing"] = m_timings.timing(result.samples);
-        object["fragments"] = fragments(run, result);
+        object["fragments"] = fragments(result);
         object["memory_bytes"] = result.memory_bytes;
         if (result.metrics) {
             object["metrics"] = result.metrics->values;
@@ -127,31 +119,31 @@ class ReportMaker {
     }
 
     /// The ideal time, that of f2b for the fragments that are needed, over the method's own.
-    json efficiency(const Run& run, const MethodResult& result, std::string& reason) const {
+    json efficiency(const MethodResult& result, std::string& reason) const {
         const auto f2b = std::ranges::find_if(
-            run.results, [](const MethodResult& other) { return other.method.id == "f2b" && other.status == "ok"; });
+            m_run.results, [](const MethodResult& other) { return other.method.id == "f2b" && other.status == "ok"; });
         const double own_ms = m_timings.median_ms(result);
-        if (f2b == run.results.end()) {
+        if (f2b == m_run.results.end()) {
             reason = "f2b is not among the methods that ran";
         } else if (!result.fragments.needed) {
             reason = result.fragments.no_needed_reason;
-        } else if (run.overdraw.total() == 0) {
+        } else if (m_run.overdraw.total() == 0) {
             reason = "no fragment is submitted";
         } else if (own_ms <= 0) {
             reason = "the method took no time";
         } else {
             return m_timings.median_ms(*f2b) * static_cast<double>(result.fragments.needed->total()) /
-                   static_cast<double>(run.overdraw.total()) / own_ms;
+                   static_cast<double>(m_run.overdraw.total()) / own_ms;
         }
         return nullptr;
     }
 
-    json fragments(const Run& run, const MethodResult& result) const {
+    json fragments(const MethodResult& result) const {
         std::string reason;
-        json object = {{"submitted", run.overdraw.total()},
+        json object = {{"submitted", m_run.overdraw.total()},
                        {"shaded", nullptr},
                        {"needed", nullptr},
-                       {"efficiency", efficiency(run, result, reason)}};
+                       {"efficiency", efficiency(result, reason)}};
         if (!reason.empty()) object["efficiency_reason"] = reason;
         const auto set = [&](const std::string& key, const std::optional<PixelCounts>& counts,
                              const std::string& why_not) {
@@ -167,15 +159,15 @@ class ReportMaker {
     }
 
     /// All of a run share one scale, so that equal colours are equal numbers from picture to picture.
-    static std::uint32_t count_scale(const Run& run) {
-        std::uint32_t scale = run.overdraw.greatest();
-        for (const MethodResult& result : run.results)
+    std::uint32_t count_scale() const {
+        std::uint32_t scale = m_run.overdraw.greatest();
+        for (const MethodResult& result : m_run.results)
             if (result.fragments.shaded) scale = std::max(scale, result.fragments.shaded->greatest());
         return scale;
     }
 
-    json count_pictures(const Run& run, const MethodResult& result, const std::string& name) const {
-        const std::uint32_t scale = count_scale(run);
+    json count_pictures(const MethodResult& result, const std::string& name) const {
+        const std::uint32_t scale = count_scale();
         json images = json::object();
         const auto add = [&](const std::string& key, const PixelCounts& counts) {
             images[key] = put(encode_png(count_picture(counts, scale)), fmt::format("{}.{}.png", file_name(name), key),
@@ -183,62 +175,51 @@ class ReportMaker {
             images[key]["greatest"] = counts.greatest();
             images[key]["full_scale"] = scale;
         };
-        if (!run.overdraw.counts.empty()) add("overdraw", run.overdraw);
+        if (!m_run.overdraw.counts.empty()) add("overdraw", m_run.overdraw);
         if (result.fragments.shaded) add("shaded", *result.fragments.shaded);
         if (result.fragments.saturation) add("saturation", *result.fragments.saturation);
         return images;
     }
 
-    /// The number that a check names, or null.
-    static json measured(const json& result, const std::string& metric) {
-        if (metric == "speedup") return result["speedup"].is_null() ? json() : result["speedup"]["value"];
-        const bool of_the_result =
-            metric.starts_with("timing.") || metric.starts_with("fragments.") || metric == "memory_bytes";
-        json value = of_the_result ? result : result["metrics"];
-        for (std::size_t begin = 0; begin <= metric.size() && !value.is_null();) {
-            const std::size_t end = std::min(metric.find('.', begin), metric.size());
-            value = value.is_object() ? value.value(metric.substr(begin, end - begin), json()) : json();
-            begin = end + 1;
-        }
-        return value;
-    }
-
-    json checks(const json& runs) const {
-        json all = json::array();
-        for (const CheckSpec& check : m_spec.checks) {
-            for (const json& run : runs) {
-                for (const json& result : run["results"]) {
-                    if (result["label"] != check.method) continue;
-                    const json value = measured(result, check.metric);
-                    // PSNR is null where the pictures are identical, which passes any minimum.
-                    const bool identical = check.metric == "psnr" && value.is_null() && result["metrics"].is_object();
-                    const bool passed = identical ? check.max.is_null()
-                                                  : value.is_number() && (check.min.is_null() || value >= check.min) &&
-                                                        (check.max.is_null() || value <= check.max);
-                    all.push_back({{"metric", check.metric},
-                                   {"method", check.method},
-                                   {"at", run["point"]},
-                                   {"min", check.min},
-                                   {"max", check.max},
-                                   {"value", value},
-                                   {"passed", passed}});
-                }
-            }
-        }
-        return all;
-    }
-
-    static std::string verdict(const json& checks) {
-        if (checks.empty()) return "none";
-        return std::ranges::all_of(checks, [](const json& check) { return check["passed"].get<bool>(); }) ? "passed"
-                                                                                                          : "failed";
-    }
-
     const Spec& m_spec;
-    const Comparison& m_comparison;
+    const Run& m_run;
     BlobSink& m_sink;
-    Timings m_timings;
+    const std::string m_prefix;
+    const Timings m_timings;
 };
+
+bool passes(const CheckSpec& check, const json& result, const json& value) {
+    // PSNR is null where the pictures are identical, which passes any minimum.
+    const bool identical = check.metric == "psnr" && value.is_null() && result["metrics"].is_object();
+    if (identical) return check.max.is_null();
+    return value.is_number() && (check.min.is_null() || value >= check.min) &&
+           (check.max.is_null() || value <= check.max);
+}
+
+json check_all(const std::vector<CheckSpec>& checks, const json& runs) {
+    json all = json::array();
+    for (const CheckSpec& check : checks) {
+        for (const json& run : runs) {
+            const json* result = find_result(run, check.method);
+            if (!result || !lies_at(run["point"], check.at)) continue;
+            const json value = measured(*result, check.metric);
+            all.push_back({{"metric", check.metric},
+                           {"method", check.method},
+                           {"at", run["point"]},
+                           {"min", check.min},
+                           {"max", check.max},
+                           {"value", value},
+                           {"passed", passes(check, *result, value)}});
+        }
+    }
+    return all;
+}
+
+std::string verdict_of(const json& checks) {
+    if (checks.empty()) return "none";
+    return std::ranges::all_of(checks, [](const json& check) { return check["passed"].get<bool>(); }) ? "passed"
+                                                                                                      : "failed";
+}
 
 void write_file(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream file(path, std::ios::binary);
@@ -268,8 +249,28 @@ std::string ContentSink::put(const std::string& sha256, const std::string& bytes
     return "/api/v1/blobs/" + sha256;
 }
 
-json make_report(const Spec& spec, const Comparison& comparison, BlobSink& sink, const std::string& created_at) {
-    return ReportMaker(spec, comparison, sink).make(created_at);
+ReportMaker::ReportMaker(const Spec& spec, const Device& device, BlobSink& sink, const std::string& created_at)
+    : m_spec(spec), m_software(device.info.software), m_sink(sink) {
+    m_report = {{"status", "done"},          {"progress", 1.0},
+                {"error", nullptr},          {"created_at", created_at},
+                {"spec", m_spec.normalised}, {"spec_sha256", sha256_hex(m_spec.canonical_text())},
+                {"runs", json::array()},     {"device", device_json(device)}};
+    m_report["provenance"] = {{"version", version}, {"commit", commit}, {"rerun", "sheer compare SPEC.json"}};
+}
+
+void ReportMaker::add(const Run& run) {
+    json& runs = m_report["runs"];
+    const std::string prefix = m_spec.points.size() > 1 ? fmt::format("{:03}-", runs.size() + 1) : "";
+    runs.push_back(RunWriter(m_spec, run, m_software, m_sink, prefix).write());
+}
+
+json ReportMaker::finish() {
+    const json& runs = m_report["runs"];
+    if (const Suite* suite = find_suite(m_spec.suite)) m_report["suite"] = suite_report(*suite, runs);
+    m_report["checks"] = check_all(m_spec.checks, runs);
+    m_report["verdict"] = verdict_of(m_report["checks"]);
+    m_report["finished_at"] = utc_now();
+    return std::move(m_report);
 }
 
 std::string sha256_hex(const std::string& bytes) {

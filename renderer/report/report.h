@@ -39,9 +39,21 @@ class ContentSink : public BlobSink {
     std::filesystem::path m_folder;
 };
 
-/// The report of contract.md, status "done", without id: `created_at` and `finished_at` are UTC, RFC 3339.
-nlohmann::json make_report(const Spec& spec, const Comparison& comparison, BlobSink& sink,
-                           const std::string& created_at);
+/// Makes the report of contract.md, status "done", without id, from the runs of a comparison as they come.
+class ReportMaker {
+  public:
+    /// `created_at` is UTC, RFC 3339. References outlive it.
+    ReportMaker(const Spec& spec, const Device& device, BlobSink& sink, const std::string& created_at);
+    void add(const Run& run);
+    /// Once, after the last run.
+    nlohmann::json finish();
+
+  private:
+    const Spec& m_spec;
+    bool m_software;
+    BlobSink& m_sink;
+    nlohmann::json m_report;
+};
 
 /// A table for the terminal: a line a method.
 std::string report_table(const nlohmann::json& report);

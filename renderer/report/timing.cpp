@@ -22,13 +22,9 @@ bool gpu_clock_holds(const Samples& samples) {
 
 /// The GPU's clock leaves out what the CPU does between draws; a software rasteriser is the CPU, so there, and
 /// wherever the two clocks disagree, the fenced wall clock is what counts.
-bool use_gpu_clock(const Comparison& comparison) {
-    if (comparison.device.software) return false;
-    return std::ranges::all_of(comparison.runs, [](const Run& run) {
-        return gpu_clock_holds(run.baseline_again) && std::ranges::all_of(run.results, [](const MethodResult& result) {
-                   return gpu_clock_holds(result.samples);
-               });
-    });
+bool use_gpu_clock(const Run& run, bool software) {
+    return !software && gpu_clock_holds(run.baseline_again) &&
+           std::ranges::all_of(run.results, [](const MethodResult& result) { return gpu_clock_holds(result.samples); });
 }
 
 double phase_median(const Samples& samples, gl::Phase phase) {
@@ -81,8 +77,8 @@ std::size_t compared_in(const Run& run) {
 
 }  // namespace
 
-Timings::Timings(const Comparison& comparison, const std::string& baseline)
-    : m_baseline(baseline), m_gpu_clock(use_gpu_clock(comparison)) {}
+Timings::Timings(const Run& run, const std::string& baseline, bool software)
+    : m_run(run), m_baseline(baseline), m_gpu_clock(use_gpu_clock(run, software)) {}
 
 std::vector<double> Timings::times(const Samples& samples) const {
     std::vector<double> all;
@@ -90,10 +86,10 @@ std::vector<double> Timings::times(const Samples& samples) const {
     return all;
 }
 
-const MethodResult* Timings::baseline_of(const Run& run) const {
+const MethodResult* Timings::baseline() const {
     const auto found = std::ranges::find_if(
-        run.results, [&](const MethodResult& result) { return result.method.label == m_baseline; });
-    return found == run.results.end() || found->status != "ok" ? nullptr : &*found;
+        m_run.results, [&](const MethodResult& result) { return result.method.label == m_baseline; });
+    return found == m_run.results.end() || found->status != "ok" ? nullptr : &*found;
 }
 
 double Timings::median_ms(const MethodResult& result) const {
@@ -127,10 +123,10 @@ json Timings::timing(const Samples& samples) const {
             {"disagreeing_samples", disagreeing}};
 }
 
-json Timings::noise(const Run& run) const {
-    const MethodResult* baseline = baseline_of(run);
+json Timings::noise() const {
+    const MethodResult* baseline = baseline();
     if (!baseline) return nullptr;
-    const std::vector<double> again = times(run.baseline_again);
+    const std::vector<double> again = times(m_run.baseline_again);
     const std::vector<double> ratios = paired_ratios(times(baseline->samples), again);
     if (ratios.empty()) return nullptr;
     const NoiseFloor noise = noise_floor(ratios);
@@ -141,16 +137,16 @@ json Timings::noise(const Run& run) const {
             {"samples", again}};
 }
 
-json Timings::speedup(const Run& run, const MethodResult& result) const {
-    const MethodResult* baseline = baseline_of(run);
+json Timings::speedup(const MethodResult& result) const {
+    const MethodResult* baseline = baseline();
     if (!baseline || result.status != "ok") return nullptr;
     const std::vector<double> theirs = times(baseline->samples);
     const std::vector<double> ratios = paired_ratios(theirs, times(result.samples));
     if (ratios.empty()) return nullptr;
-    const std::vector<double> noise_ratios = paired_ratios(theirs, times(run.baseline_again));
+    const std::vector<double> noise_ratios = paired_ratios(theirs, times(m_run.baseline_again));
     const std::optional<NoiseFloor> noise =
         noise_ratios.empty() ? std::nullopt : std::optional(noise_floor(noise_ratios));
-    const Speedup speedup = judge_speedup(ratios, compared_in(run), noise);
+    const Speedup speedup = judge_speedup(ratios, compared_in(m_run), noise);
     const bool itself = &result == baseline;
     return {{"value", speedup.value},
             {"ci95", pair_json(speedup.ci95)},
@@ -158,7 +154,7 @@ json Timings::speedup(const Run& run, const MethodResult& result) const {
             {"reason", itself                   ? json("it is the baseline")
                        : speedup.reason.empty() ? json()
                                                 : json(speedup.reason)},
-            {"compared", compared_in(run)}};
+            {"compared", compared_in(m_run)}};
 }
 
 }  // namespace sheer

@@ -3,6 +3,7 @@
 
 #include "renderer/gl/context.h"
 #include "renderer/spec/spec.h"
+#include "renderer/spec/suites.h"
 #include "server/cli/commands.h"
 #include "server/cli/rendering.h"
 
@@ -91,6 +92,11 @@ void add_catalog(CLI::App& app, int& exit_code) {
     add_list(app, exit_code, "scenes", "The scenes and their parameters", describe_scenes, [](const json& info) {
         return entry(info, {{"source", "source"}}) + "\n";
     });
+    add_list(app, exit_code, "suites", "Published measurements that can be repeated", describe_suites,
+             [](const json& suite) {
+                 return fmt::format("{:<15} {} ({})\n", suite["id"].get<std::string>(),
+                                    suite["title"].get<std::string>(), suite["source"].get<std::string>());
+             });
     add_list(app, exit_code, "devices", "What can be rendered on here", describe_devices, device_line);
 }
 

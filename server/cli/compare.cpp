@@ -7,6 +7,8 @@
 #include "renderer/assets/file_assets.h"
 #include "renderer/compare.h"
 #include "renderer/report/report.h"
+#include "renderer/spec/names.h"
+#include "renderer/spec/suites.h"
 #include "server/cli/commands.h"
 #include "server/cli/rendering.h"
 
@@ -15,7 +17,8 @@ namespace sheer::cli {
 namespace {
 
 struct Options {
-    std::string spec, out, junit;
+    std::string spec, suite, out, junit;
+    double scale = 1;
     gl::ContextRequest context;
 };
 
@@ -57,9 +60,27 @@ class NoSink : public BlobSink {
     }
 };
 
+Spec load_suite(const Options& options) {
+    const Suite* suite = find_suite(options.suite);
+    if (!suite)
+        throw UsageError(
+            fmt::format("there is no suite \"{}\"; known are {}", options.suite, joined_ids(all_suites())));
+    return parse_spec(suite_spec(*suite, options.scale));
+}
+
+std::string rerun(const Options& options) {
+    if (options.suite.empty()) return "sheer compare " + options.spec;
+    return fmt::format("sheer compare --suite {} --scale {}", options.suite, options.scale);
+}
+
+std::unique_ptr<BlobSink> make_sink(const std::optional<ReportFolder>& folder) {
+    if (folder) return std::make_unique<FolderSink>(folder->partial());
+    return std::make_unique<NoSink>();
+}
+
 int run(const Options& options) {
     const std::string created_at = utc_now();
-    const Spec spec = load_spec(options.spec);
+    const Spec spec = options.suite.empty() ? load_spec(options.spec) : load_suite(options);
     std::optional<ReportFolder> folder;
     if (!options.out.empty()) folder.emplace(options.out);
     nlohmann::json report;
@@ -67,17 +88,16 @@ int run(const Options& options) {
         ProgressBar bar;
         const auto context = gl::create_context(options.context);
         FileAssets assets = assets_in_folder(std::filesystem::path(options.spec).parent_path());
-        const Comparison comparison = compare(
-            spec, *context, assets, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); });
+        const std::unique_ptr<BlobSink> sink = make_sink(folder);
+        ReportMaker maker(spec, describe_device(*context), *sink, created_at);
+        compare(
+            spec, *context, assets, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); },
+            [&](const Run& run) { maker.add(run); });
+        report = maker.finish();
+        report["provenance"]["rerun"] = rerun(options);
         if (folder) {
-            FolderSink sink(folder->partial());
-            report = make_report(spec, comparison, sink, created_at);
-            report["provenance"]["rerun"] = "sheer compare " + options.spec;
             write_report(report, folder->partial());
             folder->commit();
-        } else {
-            NoSink sink;
-            report = make_report(spec, comparison, sink, created_at);
         }
     }
     fmt::print("{}", report_table(report));
@@ -95,7 +115,14 @@ int run(const Options& options) {
 void add_compare(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("compare", "Render a comparison here and print its table");
     auto options = std::make_shared<Options>();
-    command->add_option("spec", options->spec, "The spec, a JSON file (see configs/specs)")->required();
+    CLI::Option* spec = command->add_option("spec", options->spec, "The spec, a JSON file (see configs/specs)");
+    CLI::Option* suite =
+        command->add_option("--suite", options->suite, "Repeat a published measurement instead: see sheer suites");
+    command->add_option("--scale", options->scale, "Width and height of a suite's picture, times this")
+        ->needs(suite)
+        ->check(CLI::Range(0.01, 1.0));
+    suite->excludes(spec);
+    command->require_option(1, 0);
     command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
     command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
     add_context_options(*command, options->context);

@@ -61,11 +61,15 @@ int run(const Options& options) {
         const Spec spec = parse_spec_text(read_text(options.spec));
         const auto context = gl::create_context(options.context);
         FileAssets assets(uploads_in(options.assets));
-        const Comparison comparison = compare(spec, *context, assets, [](double fraction, const std::string& stage) {
-            say({{"progress", fraction}, {"stage", stage}});
-        });
         ContentSink sink(options.out);
-        const json report = make_report(spec, comparison, sink, created_at);
+        ReportMaker maker(spec, describe_device(*context), sink, created_at);
+        compare(
+            spec, *context, assets,
+            [](double fraction, const std::string& stage) {
+                say({{"progress", fraction}, {"stage", stage}});
+            },
+            [&](const Run& run) { maker.add(run); });
+        const json report = maker.finish();
         write_text(std::filesystem::path(options.out) / "report.json", report.dump());
         return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
     } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 
 #include "renderer/report/report.h"
 #include "renderer/spec/spec.h"
+#include "renderer/spec/suites.h"
 #include "server/http/problem.h"
 #include "server/http/service.h"
 
@@ -44,14 +45,17 @@ Answer get_devices(Service& service) {
 }  // namespace
 
 std::vector<Route> catalog_routes(Service& service) {
-    return {catalog_route("/api/v1/methods", "listMethods", "The methods with their parameters",
-                          fixed_json(describe_methods())),
-            catalog_route("/api/v1/scenes", "listScenes", "The scene types with their parameters",
-                          fixed_json(describe_scenes())),
-            catalog_route("/api/v1/metrics", "listMetrics", "The metrics with their fields",
-                          fixed_json(describe_metrics())),
-            catalog_route("/api/v1/devices", "listDevices", "The devices that can render",
-                          [&service](const Request&) { return get_devices(service); })};
+    return {
+        catalog_route("/api/v1/methods", "listMethods", "The methods with their parameters",
+                      fixed_json(describe_methods())),
+        catalog_route("/api/v1/scenes", "listScenes", "The scene types with their parameters",
+                      fixed_json(describe_scenes())),
+        catalog_route("/api/v1/metrics", "listMetrics", "The metrics with their fields",
+                      fixed_json(describe_metrics())),
+        catalog_route("/api/v1/suites", "listSuites", "Published measurements that can be repeated: post their spec",
+                      fixed_json(describe_suites())),
+        catalog_route("/api/v1/devices", "listDevices", "The devices that can render",
+                      [&service](const Request&) { return get_devices(service); })};
 }
 
 }  // namespace sheer::http

@@ -25,16 +25,18 @@ Spec small_spec(const nlohmann::json& timing = {{"rounds", 3}}) {
 
 const ProgressFunction no_progress = [](double, const std::string&) {};
 
-Comparison compare_here(const Spec& spec, gl::Context& context, const ProgressFunction& progress) {
+std::vector<sheer::Run> compare_here(const Spec& spec, gl::Context& context, const ProgressFunction& progress) {
     NoAssets assets;
-    return compare(spec, context, assets, progress);
+    std::vector<sheer::Run> runs;
+    compare(spec, context, assets, progress, [&](const sheer::Run& run) { runs.push_back(run); });
+    return runs;
 }
 
 TEST(Compare, GivesEveryMethodItsPictureTimesAndMetrics) {
     const auto context = make_context("egl");
-    const Comparison comparison = compare_here(small_spec(), *context, no_progress);
-    ASSERT_EQ(comparison.runs.size(), 1u);
-    const sheer::Run& run = comparison.runs[0];
+    const auto runs = compare_here(small_spec(), *context, no_progress);
+    ASSERT_EQ(runs.size(), 1u);
+    const sheer::Run& run = runs[0];
     EXPECT_EQ(run.reference_image.width_px, 48);
     EXPECT_EQ(run.reference_image.height_px, 40);
     ASSERT_TRUE(run.residual.has_value());
@@ -57,18 +59,16 @@ TEST(Compare, GivesEveryMethodItsPictureTimesAndMetrics) {
 
 TEST(Compare, IsRepeatable) {
     const auto context = make_context("egl");
-    const Comparison first = compare_here(small_spec(), *context, no_progress);
+    const auto first = compare_here(small_spec(), *context, no_progress);
     const auto other_context = make_context("egl");
-    const Comparison second = compare_here(small_spec(), *other_context, no_progress);
-    for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_EQ(first.runs[0].results[i].image.rgba, second.runs[0].results[i].image.rgba);
+    const auto second = compare_here(small_spec(), *other_context, no_progress);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(first[0].results[i].image.rgba, second[0].results[i].image.rgba);
 }
 
 TEST(Compare, StopsTimingAfterItsTimeButNotBeforeOneRound) {
     const auto context = make_context("egl");
-    const Comparison comparison =
-        compare_here(small_spec({{"rounds", 1000}, {"max_seconds", 0.001}}), *context, no_progress);
-    for (const MethodResult& result : comparison.runs[0].results) {
+    const auto runs = compare_here(small_spec({{"rounds", 1000}, {"max_seconds", 0.001}}), *context, no_progress);
+    for (const MethodResult& result : runs[0].results) {
         EXPECT_GE(result.samples.size(), 1u);
         EXPECT_LT(result.samples.size(), 1000u);
     }
@@ -119,11 +119,11 @@ TEST(Compare, ReportsWhatIsUnsupported) {
                     {"image", {{"width", 2}, {"height", 1}}},
                     {"timing", {{"rounds", 1}}}});
     const auto context = make_context("egl");
-    const Comparison comparison = compare_here(spec, *context, no_progress);
-    EXPECT_EQ(comparison.runs[0].results[0].status, "ok");
-    EXPECT_EQ(comparison.runs[0].results[1].status, "unsupported");
-    EXPECT_THAT(comparison.runs[0].results[1].reason, testing::HasSubstr("40000 fragments"));
-    EXPECT_TRUE(comparison.runs[0].results[1].samples.empty());
+    const auto runs = compare_here(spec, *context, no_progress);
+    EXPECT_EQ(runs[0].results[0].status, "ok");
+    EXPECT_EQ(runs[0].results[1].status, "unsupported");
+    EXPECT_THAT(runs[0].results[1].reason, testing::HasSubstr("40000 fragments"));
+    EXPECT_TRUE(runs[0].results[1].samples.empty());
 }
 
 }  // namespace

@@ -54,13 +54,14 @@ struct ReportFixture : testing::Test {
                               {{"metric", "signed.max"}, {"method", "F2BD <1>"}, {"max", 50}},
                               {{"metric", "psnr"}, {"method", "b2f"}, {"min", 99}},
                               {{"metric", "rmse"}, {"method", "f2bx"}, {"max", 1}}}}});
-    Comparison comparison;
+    Device device;
+    std::vector<sheer::Run> runs;
     MapSink sink;
 
     ReportFixture() {
-        comparison.device.renderer = "test";
-        comparison.device.context = "egl";
-        comparison.device.software = true;
+        device.info.renderer = "test";
+        device.info.context = "egl";
+        device.info.software = true;
         sheer::Run run;
         run.reference = spec.reference;
         run.reference_image = Image(4, 2);
@@ -86,10 +87,14 @@ struct ReportFixture : testing::Test {
         run.results[1].fragments = {two, "", two, "", two};
         run.results[2].status = "unsupported";
         run.results[2].reason = "no <barrier>";
-        comparison.runs.push_back(std::move(run));
+        runs.push_back(std::move(run));
     }
 
-    json report() { return make_report(spec, comparison, sink, "2026-01-01T00:00:00.000Z"); }
+    json report() {
+        ReportMaker maker(spec, device, sink, "2026-01-01T00:00:00.000Z");
+        for (const sheer::Run& run : runs) maker.add(run);
+        return maker.finish();
+    }
 };
 
 TEST_F(ReportFixture, TimesAndSpeedupsAreThoseOfTheSamples) {
@@ -123,20 +128,20 @@ TEST_F(ReportFixture, TheBaselineIsHeldAgainstItself) {
     EXPECT_NEAR(run["noise_floor"]["factor"].get<double>(), 1.05, 1e-9);
 
     // Were the second instance 2.5 times as slow, twice as fast would be no news.
-    for (gl::FrameSample& frame : comparison.runs[0].baseline_again) frame.wall_ms *= 2.5;
+    for (gl::FrameSample& frame : runs[0].baseline_again) frame.wall_ms *= 2.5;
     const json speedup = report()["runs"][0]["results"][1]["speedup"];
     EXPECT_EQ(speedup["verdict"], "not resolved");
     EXPECT_EQ(speedup["reason"], "inside the noise floor");
 
-    comparison.runs[0].results[0].status = "unsupported";
-    comparison.runs[0].baseline_again.clear();
+    runs[0].results[0].status = "unsupported";
+    runs[0].baseline_again.clear();
     EXPECT_TRUE(report()["runs"][0]["noise_floor"].is_null());
     EXPECT_TRUE(report()["runs"][0]["results"][1]["speedup"].is_null());
 }
 
 TEST_F(ReportFixture, IntervalsAreCorrectedForTheNumberOfMethods) {
     // Two methods that ran beside the baseline allow 2.5 % each; of six rounds 3.1 % lie outside the whole range.
-    comparison.runs[0].results[2].status = "ok";
+    runs[0].results[2].status = "ok";
     const json speedup = report()["runs"][0]["results"][1]["speedup"];
     EXPECT_EQ(speedup["compared"], 2);
     EXPECT_TRUE(speedup["ci95"].is_null());
@@ -144,7 +149,7 @@ TEST_F(ReportFixture, IntervalsAreCorrectedForTheNumberOfMethods) {
 }
 
 TEST_F(ReportFixture, OutliersAreMarkedAndKept) {
-    comparison.runs[0].results[1].samples[2] = sample(900, 810);
+    runs[0].results[1].samples[2] = sample(900, 810);
     const json timing = report()["runs"][0]["results"][1]["timing"];
     EXPECT_EQ(timing["outliers"], json({2}));
     EXPECT_EQ(timing["samples"], json({5.0, 10.0, 900.0, 20.0, 25.0, 30.0}));
@@ -159,13 +164,13 @@ TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsTheIdealTimeOverTheOwn) {
     EXPECT_THAT(fragments["efficiency_reason"].get<std::string>(), HasSubstr("f2b"));
 
     // With b2f's times as f2b's: 35 ms * 16 / 80 = 7 ms are ideal, 17.5 ms were taken.
-    comparison.runs[0].results[0].method.id = "f2b";
+    runs[0].results[0].method.id = "f2b";
     fragments = report()["runs"][0]["results"][1]["fragments"];
     EXPECT_DOUBLE_EQ(fragments["efficiency"].get<double>(), 0.4);
     EXPECT_FALSE(fragments.contains("efficiency_reason"));
     EXPECT_DOUBLE_EQ(report()["runs"][0]["results"][0]["fragments"]["efficiency"].get<double>(), 1);
 
-    comparison.runs[0].results[1].fragments = {{}, "why not shaded", {}, "why not needed", {}};
+    runs[0].results[1].fragments = {{}, "why not shaded", {}, "why not needed", {}};
     fragments = report()["runs"][0]["results"][1]["fragments"];
     for (const std::string name : {"shaded", "needed", "efficiency"}) EXPECT_TRUE(fragments[name].is_null()) << name;
     EXPECT_EQ(fragments["shaded_reason"], "why not shaded");
@@ -199,10 +204,10 @@ TEST_F(ReportFixture, FragmentsCanBeChecked) {
 }
 
 TEST_F(ReportFixture, AGpuIsTimedByItsOwnClockWhileTheClocksAgree) {
-    comparison.device.software = false;
+    device.info.software = false;
     EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["clock"], "gpu");
     EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["median"], 9 * 3.5);
-    comparison.runs[0].results[1].samples[0].valid = false;
+    runs[0].results[1].samples[0].valid = false;
     EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["clock"], "wall") << "one clock for all methods";
 }
 
