@@ -124,10 +124,10 @@ json Timings::timing(const Samples& samples) const {
 }
 
 json Timings::noise() const {
-    const MethodResult* baseline = baseline();
-    if (!baseline) return nullptr;
+    const MethodResult* base = baseline();
+    if (!base) return nullptr;
     const std::vector<double> again = times(m_run.baseline_again);
-    const std::vector<double> ratios = paired_ratios(times(baseline->samples), again);
+    const std::vector<double> ratios = paired_ratios(times(base->samples), again);
     if (ratios.empty()) return nullptr;
     const NoiseFloor noise = noise_floor(ratios);
     return {{"method", m_baseline},
@@ -138,16 +138,16 @@ json Timings::noise() const {
 }
 
 json Timings::speedup(const MethodResult& result) const {
-    const MethodResult* baseline = baseline();
-    if (!baseline || result.status != "ok") return nullptr;
-    const std::vector<double> theirs = times(baseline->samples);
+    const MethodResult* base = baseline();
+    if (!base || result.status != "ok") return nullptr;
+    const std::vector<double> theirs = times(base->samples);
     const std::vector<double> ratios = paired_ratios(theirs, times(result.samples));
     if (ratios.empty()) return nullptr;
     const std::vector<double> noise_ratios = paired_ratios(theirs, times(m_run.baseline_again));
     const std::optional<NoiseFloor> noise =
         noise_ratios.empty() ? std::nullopt : std::optional(noise_floor(noise_ratios));
     const Speedup speedup = judge_speedup(ratios, compared_in(m_run), noise);
-    const bool itself = &result == baseline;
+    const bool itself = &result == base;
     return {{"value", speedup.value},
             {"ci95", pair_json(speedup.ci95)},
             {"verdict", verdict_name(speedup.verdict)},
