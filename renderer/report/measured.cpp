@@ -1,6 +1,7 @@
 #include "renderer/report/measured.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sheer {
 
@@ -22,10 +23,10 @@ json measured(const json& result, const std::string& metric) {
 std::optional<Measured> measured_with_interval(const json& result, const std::string& metric) {
     const json value = measured(result, metric);
     if (!value.is_number()) return std::nullopt;
-    json interval;
-    if (metric == "speedup") interval = result["speedup"]["ci95"];
-    if (metric == "timing.median") interval = result["timing"]["ci95"];
-    if (!interval.is_array()) return Measured{value, value, value};
+    if (metric != "speedup" && metric != "timing.median") return Measured{value, value, value};
+    const json& interval = result[metric == "speedup" ? "speedup" : "timing"]["ci95"];
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!interval.is_array()) return Measured{value, -infinity, infinity};
     return Measured{value, interval[0], interval[1]};
 }
 

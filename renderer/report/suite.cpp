@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/report/measured.h"
 #include "renderer/spec/sweep.h"
@@ -136,7 +137,7 @@ json figure(const json& published, const json& runs) {
         const auto found = result ? measured_with_interval(*result, published.at("metric")) : std::nullopt;
         if (!found) continue;
         figure["measured"] = found->value;
-        if (found->low != found->high) figure["ci95"] = {found->low, found->high};
+        if (found->low != found->high && std::isfinite(found->low)) figure["ci95"] = {found->low, found->high};
     }
     return figure;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/report/report.h"
+#include "renderer/spec/sweep.h"
 
 namespace sheer {
 
@@ -110,6 +111,26 @@ std::string notes(const json& run, const std::string& baseline) {
     return text + "\n";
 }
 
+std::string published_text(const json& published) {
+    if (published.is_number()) return fmt::format("{:.3g}", published.get<double>());
+    return fmt::format("{:.3g} to {:.3g}", published[0].get<double>(), published[1].get<double>());
+}
+
+/// Published beside measured, then what became of each trend.
+std::string suite_text(const json& suite) {
+    std::vector<Row> rows = {{"at", "method", "metric", "published", "measured"}};
+    for (const json& figure : suite["figures"])
+        rows.push_back({describe_point(figure["at"]), figure["method"], figure["metric"],
+                        published_text(figure["published"]), number(figure, "/measured", "{:.3g}")});
+    std::string text =
+        fmt::format("\n{}\nPublished figures were measured on {}.\n\n{}\n", suite["source"].get<std::string>(),
+                    suite["device"].get<std::string>(), aligned(rows));
+    for (const json& trend : suite["trends"])
+        text += fmt::format("{:<12}  {}: {}\n", trend["verdict"].get<std::string>(), trend["text"].get<std::string>(),
+                            trend["detail"].get<std::string>());
+    return text;
+}
+
 }  // namespace
 
 std::string report_table(const json& report) {
@@ -121,12 +142,15 @@ std::string report_table(const json& report) {
         text += "Times on a software rasteriser do not predict those on a GPU; counts of fragments come nearer.\n";
     for (const json& run : report["runs"]) {
         text += "\n";
-        if (!run["point"].empty()) text += run["point"].dump() + "\n";
+        if (!run["point"].empty()) text += "At " + describe_point(run["point"]) + "\n";
         const std::string fragments = fragment_table(run), times = time_table(run);
         text += software ? fragments + "\n" + times : times + "\n" + fragments;
         text += "\n";
         text += notes(run, report["spec"]["baseline"]);
+        if (run["frontier"].is_object())
+            for (const auto& sentence : run["frontier"]["sentences"]) text += sentence.get<std::string>() + "\n";
     }
+    if (report.contains("suite")) text += suite_text(report["suite"]);
     for (const json& check : report["checks"]) {
         text +=
             fmt::format("{}  {} of {} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",

@@ -131,6 +131,14 @@ TEST(SuiteReport, AboveHoldsFailsOrIsOpen) {
     EXPECT_EQ(verdict(trend("above", {"f2bd", "b2f"})), "not resolved") << "b2f was not measured";
 }
 
+TEST(SuiteReport, TooFewSamplesForAnIntervalResolveNothing) {
+    json few = runs[2];
+    for (json& one : few["results"]) one["speedup"]["ci95"] = nullptr;
+    const json made = suite_report(suite(trend("above", {"f2bd", "f2b"})), json::array({few}));
+    EXPECT_EQ(made["trends"][0]["verdict"], "not resolved");
+    EXPECT_TRUE(made["figures"][0]["ci95"].is_null());
+}
+
 TEST(SuiteReport, GrowthIsJudgedBetweenEndsAndSteps) {
     EXPECT_EQ(verdict(trend("grows", {"f2bd"})), "holds");
     EXPECT_EQ(verdict(trend("grows", {"f2b"}, at({16, 64}))), "not resolved");
