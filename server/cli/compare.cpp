@@ -60,7 +60,9 @@ class NoSink : public BlobSink {
     }
 };
 
-Spec load_suite(const Options& options) {
+Spec read_spec(const Options& options) {
+    if (options.suite.empty() && options.spec.empty()) throw UsageError("give a SPEC.json or a --suite");
+    if (options.suite.empty()) return load_spec(options.spec);
     const Suite* suite = find_suite(options.suite);
     if (!suite)
         throw UsageError(
@@ -80,7 +82,7 @@ std::unique_ptr<BlobSink> make_sink(const std::optional<ReportFolder>& folder) {
 
 int run(const Options& options) {
     const std::string created_at = utc_now();
-    const Spec spec = options.suite.empty() ? load_spec(options.spec) : load_suite(options);
+    const Spec spec = read_spec(options);
     std::optional<ReportFolder> folder;
     if (!options.out.empty()) folder.emplace(options.out);
     nlohmann::json report;
@@ -122,7 +124,6 @@ void add_compare(CLI::App& app, int& exit_code) {
         ->needs(suite)
         ->check(CLI::Range(0.01, 1.0));
     suite->excludes(spec);
-    command->require_option(1, 0);
     command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
     command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
     add_context_options(*command, options->context);
