@@ -7,6 +7,7 @@
 
 #include "renderer/assets/file_bytes.h"
 #include "renderer/assets/picture_file.h"
+#include "renderer/assets/read_model.h"
 #include "renderer/assets/read_volume.h"
 
 namespace sheer {
@@ -43,6 +44,21 @@ AssetKind raw_volume_kind() {
             {".raw"}};
 }
 
+AssetKind model_kind(const char* media_type, bool binary, std::vector<std::string> suffixes) {
+    const auto check = [binary](const std::filesystem::path& file) {
+        const std::string bytes = read_asset_bytes(file);
+        if (bytes.starts_with("glTF") != binary)
+            throw AssetError(binary ? "the file is not a .glb, which begins with \"glTF\""
+                                    : "the file is a .glb, not a .gltf");
+        const Model model = read_model(bytes, no_other_files);
+        std::size_t triangles = 0;
+        for (const ModelPart& part : model.parts) triangles += part.indices.size() / 3;
+        return json{
+            {"triangles", triangles}, {"materials", model.materials.size()}, {"pictures", model.pictures.size()}};
+    };
+    return {media_type, "model", check, std::move(suffixes)};
+}
+
 }  // namespace
 
 const std::vector<AssetKind>& asset_kinds() {
@@ -52,6 +68,8 @@ const std::vector<AssetKind>& asset_kinds() {
         picture_kind("image/x-exr", PictureFormat::exr, {".exr"}),
         nrrd_kind(),
         raw_volume_kind(),
+        model_kind("model/gltf-binary", true, {".glb"}),
+        model_kind("model/gltf+json", false, {".gltf"}),
     };
     return kinds;
 }

@@ -6,18 +6,24 @@
 
 namespace sheer {
 
-/// Reads the files that a spec refers to: PNG, JPEG and OpenEXR pictures; NRRD and raw volumes.
+/// Reads the files that a spec refers to: PNG, JPEG and OpenEXR pictures; NRRD and raw volumes; glTF models.
 class FileAssets : public AssetReader {
   public:
     /// From the name in the spec to the file; throws AssetError for one that may not be read or is not there.
     using Resolver = std::function<std::filesystem::path(const std::string& name)>;
 
-    explicit FileAssets(Resolver resolve) : m_resolve(std::move(resolve)) {}
+    /// Whether a model may read the files beside it and below: for files that the user has chosen on this machine.
+    enum class Neighbours { refused, read };
+
+    explicit FileAssets(Resolver resolve, Neighbours neighbours = Neighbours::refused)
+        : m_resolve(std::move(resolve)), m_neighbours(neighbours) {}
     Picture picture(const std::string& name, int width_px, int height_px) override;
     Volume volume(const std::string& name, const std::optional<RawVolume>& raw) override;
+    Model model(const std::string& name) override;
 
   private:
     Resolver m_resolve;
+    Neighbours m_neighbours;
 };
 
 /// Names are paths, those that are not absolute within `folder`.

@@ -3,16 +3,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "renderer/frame/image.h"
+#include "renderer/scene/model.h"
+#include "renderer/scene/picture.h"
 #include "renderer/scene/volume.h"
 
 namespace sheer {
-
-/// A picture from a file, for textures: straight alpha, rows from the top down.
-struct Picture {
-    Image image;
-    bool eight_bit = true;  ///< the file has 8 bits a channel, so that 8 bits keep all of it
-};
 
 /// What a file of voxels without a header holds, little-endian.
 struct RawVolume {
@@ -37,6 +32,8 @@ class AssetReader {
     virtual Picture picture(const std::string& name, int width_px, int height_px) = 0;
     /// NRRD, unless `raw` says what the file holds.
     virtual Volume volume(const std::string& name, const std::optional<RawVolume>& raw) = 0;
+    /// A glTF 2.0 file.
+    virtual Model model(const std::string& name) = 0;
 };
 
 /// For where there are no files: everything is an AssetError.
@@ -44,6 +41,7 @@ class NoAssets : public AssetReader {
   public:
     Picture picture(const std::string& name, int, int) override { refuse(name); }
     Volume volume(const std::string& name, const std::optional<RawVolume>&) override { refuse(name); }
+    Model model(const std::string& name) override { refuse(name); }
 
   private:
     [[noreturn]] static void refuse(const std::string& name) {

@@ -15,6 +15,9 @@ namespace {
 
 constexpr int texture_count = 4;
 
+/// As in shaders/scenes/materials.glsl and material.glsl.
+constexpr GLuint pictures_unit = 3, materials_binding = 4;
+
 /// What `shading` of a spec means to shaders/scenes/real_work.glsl.
 struct Shading {
     std::string_view name;
@@ -47,6 +50,7 @@ void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry)
 Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters)
     : m_gl(gl), m_parallel(geometry.parallel), m_view_projection(geometry.view_projection) {
     make_shading(geometry, parameters);
+    make_materials(geometry);
 
     m_vertices =
         gl::make_buffer(gl, "scene vertices", static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(Vertex)),
@@ -58,7 +62,8 @@ Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::
     gl.VertexArrayAttribFormat(array, 1, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
     gl.VertexArrayAttribFormat(array, 2, 4, GL_FLOAT, GL_FALSE, offsetof(Vertex, tint));
     gl.VertexArrayAttribIFormat(array, 3, 1, GL_UNSIGNED_INT, offsetof(Vertex, primitive));
-    for (GLuint attribute = 0; attribute < 4; ++attribute) {
+    gl.VertexArrayAttribIFormat(array, 4, 1, GL_UNSIGNED_INT, offsetof(Vertex, material));
+    for (GLuint attribute = 0; attribute < 5; ++attribute) {
         gl.VertexArrayAttribBinding(array, attribute, 0);
         gl.EnableVertexArrayAttrib(array, attribute);
     }
@@ -95,6 +100,10 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
 
 void Scene::make_shading(const Geometry& geometry, const nlohmann::json& parameters) {
     m_shading_source = gl::shader_file("scenes/inputs.glsl");
+    m_shading_source += define(
+        "SHEER_MASKED",
+        std::ranges::any_of(geometry.materials, [](const SurfaceMaterial& material) { return material.cutoff > 0; }));
+    if (!geometry.materials.empty()) m_shading_source += gl::shader_file("scenes/materials.glsl");
     if (parameters.at("shading").is_object()) return add_own_shading(geometry, parameters);
     const auto name = parameters.at("shading").get<std::string>();
     if (const Shading* shading = find_shading(name)) {
@@ -103,6 +112,7 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
         m_shading_source += gl::shader_file("scenes/real_work.glsl");
         if (shading->reads > 0) make_textures(geometry, parameters.at("texture"));
     } else {
+        m_shading_source += define("TEXTURED", !geometry.pictures.empty());
         m_shading_source += gl::shader_file("scenes/" + name + ".glsl");
         if (geometry.volume) m_volume = VolumeTextures(m_gl, *geometry.volume);
     }
@@ -118,14 +128,46 @@ void Scene::add_own_shading(const Geometry& geometry, const nlohmann::json& para
     if (own.is_textured) make_textures(geometry, parameters.at("texture"));
 }
 
-void Scene::make_textures(const Geometry& geometry, const nlohmann::json& texture) {
+void Scene::make_materials(const Geometry& geometry) {
+    if (geometry.materials.empty()) return;
+    m_materials = gl::make_buffer(m_gl, "scene materials",
+                                  static_cast<GLsizeiptr>(geometry.materials.size() * sizeof(SurfaceMaterial)),
+                                  geometry.materials.data());
+    if (!geometry.pictures.empty()) make_pictures(geometry.pictures);
+}
+
+void Scene::make_pictures(const std::vector<Picture>& pictures) {
+    m_pictures = make_repeating_array("scene pictures");
+    const GLenum format = std::ranges::all_of(pictures, &Picture::eight_bit) ? GL_RGBA8 : GL_RGBA16F;
+    for (std::size_t layer = 0; layer < pictures.size(); ++layer) {
+        const std::vector<Image> levels = make_mipmaps(pictures[layer].image);
+        if (layer == 0)
+            m_gl.TextureStorage3D(m_pictures.id(), static_cast<GLsizei>(levels.size()), format, levels[0].width_px,
+                                  levels[0].height_px, static_cast<GLsizei>(pictures.size()));
+        fill_layer(m_pictures, static_cast<GLint>(layer), levels);
+    }
+}
+
+gl::Texture Scene::make_repeating_array(std::string_view label) const {
     GLuint id = 0;
     m_gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
-    m_textures = gl::Texture(m_gl, id, "scene textures");
+    gl::Texture texture(m_gl, id, label);
     m_gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     m_gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_REPEAT);
     m_gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    return texture;
+}
+
+void Scene::fill_layer(const gl::Texture& texture, GLint layer, const std::vector<Image>& levels) const {
+    for (std::size_t level = 0; level < levels.size(); ++level)
+        m_gl.TextureSubImage3D(texture.id(), static_cast<GLint>(level), 0, 0, layer, levels[level].width_px,
+                               levels[level].height_px, 1, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
+}
+
+void Scene::make_textures(const Geometry& geometry, const nlohmann::json& texture) {
+    m_textures = make_repeating_array("scene textures");
+    const GLuint id = m_textures.id();
     if (geometry.texture) return fill_textures(*geometry.texture);
     for (int variant = 0; variant < texture_count; ++variant) {
         const auto levels =
@@ -146,10 +188,7 @@ void Scene::fill_textures(const Picture& picture) {
     m_gl.TextureStorage3D(m_textures.id(), static_cast<GLsizei>(levels.size()),
                           picture.eight_bit ? GL_RGBA8 : GL_RGBA16F, picture.image.width_px, picture.image.height_px,
                           texture_count);
-    for (std::size_t level = 0; level < levels.size(); ++level)
-        for (int layer = 0; layer < texture_count; ++layer)
-            m_gl.TextureSubImage3D(m_textures.id(), static_cast<GLint>(level), 0, 0, layer, levels[level].width_px,
-                                   levels[level].height_px, 1, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
+    for (int layer = 0; layer < texture_count; ++layer) fill_layer(m_textures, layer, levels);
 }
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
@@ -173,6 +212,8 @@ void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
     program.set("u_reads", m_reads);
     if (m_textures) m_gl.BindTextureUnit(0, m_textures.id());
     m_volume.bind(m_gl, program);
+    if (m_materials) m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, materials_binding, m_materials.id());
+    if (m_pictures) m_gl.BindTextureUnit(pictures_unit, m_pictures.id());
 }
 
 std::size_t Scene::triangle_count(Order order, std::size_t first, std::size_t count) const {

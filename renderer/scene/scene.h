@@ -62,6 +62,10 @@ class Scene {
     void add_own_shading(const Geometry& geometry, const nlohmann::json& parameters);
     void make_textures(const Geometry& geometry, const nlohmann::json& texture);
     void fill_textures(const Picture& picture);
+    void make_materials(const Geometry& geometry);
+    void make_pictures(const std::vector<Picture>& pictures);
+    gl::Texture make_repeating_array(std::string_view label) const;
+    void fill_layer(const gl::Texture& texture, GLint layer, const std::vector<Image>& levels) const;
     void bind(const gl::Program& program, const gl::Buffer& indices) const;
     const DrawList& list(Order order) const { return m_lists[static_cast<std::size_t>(order)]; }
 
@@ -80,6 +84,8 @@ class Scene {
     int m_reads = 0;
     gl::Texture m_textures;  ///< an array of four
     VolumeTextures m_volume;
+    gl::Buffer m_materials;  ///< of a model, and their pictures as an array
+    gl::Texture m_pictures;
 };
 
 /// First texture unit that methods may use.

@@ -19,6 +19,7 @@ struct Vertex {
     glm::vec2 uv;             ///< 0..1, v down; untextured_uv: the tint alone, for opaque primitives
     glm::vec4 tint;           ///< straight colour and alpha; colours may pass 1, methods clamp the shaded fragment
     std::uint32_t primitive;  ///< index into Geometry::primitives
+    std::uint32_t material = 0;  ///< index into Geometry::materials, where there are any
 };
 
 /// At every vertex of an opaque primitive: its colour is the tint, whatever the shading. (shaders/common/opaque.glsl.)
@@ -32,6 +33,12 @@ struct Primitive {
     bool opaque = false;
 };
 
+/// What shaders/scenes/materials.glsl knows of a material, byte for byte.
+struct SurfaceMaterial {
+    std::int32_t picture = -1;  ///< index into Geometry::pictures; -1 for none
+    float cutoff = 0;           ///< opaque fragments of less alpha are not there
+};
+
 /// A scene on the CPU. Primitives stand in the order of submission.
 struct Geometry {
     std::vector<Vertex> vertices;
@@ -39,6 +46,8 @@ struct Geometry {
     std::vector<Primitive> primitives;
     glm::mat4 view_projection{1.0f};
     nlohmann::json camera;  ///< where it is looked at from, as the spec says it; null for scenes that have no camera
+    std::vector<SurfaceMaterial> materials;
+    std::vector<Picture> pictures;   ///< of the materials; all of one size
     std::optional<Picture> texture;  ///< square; in place of the four procedural textures
     std::optional<VolumeShading> volume;
     bool parallel = false;  ///< drawing the primitives in depth order is exact: none intersect, each has one depth

@@ -1,3 +1,4 @@
+// Set before: SHEER_MASKED, 1 where the scene has materials with a cutoff.
 layout(location = 0) out vec4 o_color;  // no blending
 
 void main() {
@@ -5,5 +6,8 @@ void main() {
     bool untextured = v_uv.x < 0.0;
     vec4 work = v_tint;
     if (!untextured) work = real_work(v_uv, v_tint);
+#if SHEER_MASKED
+    if (clamp(work.a, 0.0, 1.0) < sheer_materials[v_material].cutoff) discard;
+#endif
     o_color = vec4(clamp(work.rgb, 0.0, 1.0), 1.0);
 }

@@ -3,6 +3,7 @@ layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec2 a_uv;
 layout(location = 2) in vec4 a_tint;
 layout(location = 3) in uint a_primitive;
+layout(location = 4) in uint a_material;
 
 uniform mat4 u_view_projection;
 
@@ -10,6 +11,7 @@ out vec3 v_position;
 out vec2 v_uv;
 out vec4 v_tint;
 flat out uint v_primitive;
+flat out uint v_material;
 
 // Passes that are drawn with different programs must meet at equal depths.
 invariant gl_Position;
@@ -20,4 +22,5 @@ void main() {
     v_uv = a_uv;
     v_tint = a_tint;
     v_primitive = a_primitive;
+    v_material = a_material;
 }
