@@ -56,6 +56,10 @@ export async function get_scenes() {
 export async function get_metrics() {
   return (await call("/metrics")).body;
 }
+/** Published measurements that can be repeated. */
+export async function get_suites() {
+  return (await call("/suites")).body;
+}
 
 /** The spec with its defaults filled in; throws ApiError with `errors` if it is wrong. */
 export async function validate(spec, signal) {

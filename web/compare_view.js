@@ -1,11 +1,12 @@
 // A new comparison at #/: a form and the same spec as JSON, checked by the service while it is written.
-import { get_methods, get_scenes, submit, validate } from "./api.js";
+import { get_methods, get_scenes, get_suites, submit, validate } from "./api.js";
 import { el, set_children, unique_id } from "./dom.js";
 import { clear_errors, focus_first_error, show_errors } from "./field_errors.js";
 import { json_range } from "./json_position.js";
 import { presets_for } from "./presets.js";
 import { SpecForm } from "./spec_form.js";
 import { keep_draft, load_draft, SpecModel } from "./spec_model.js";
+import { suite_chooser } from "./suite_chooser.js";
 
 const TYPING_PAUSE_MS = 300;
 
@@ -27,7 +28,7 @@ class CompareView {
   #loose_errors = el("ul", { class: "json-errors" });
   #run = el("button", { type: "button", class: "primary", onclick: () => this.#submit() }, "Run comparison");
 
-  constructor({ methods, scenes }, signal) {
+  constructor({ methods, scenes, suites }, signal) {
     const presets = presets_for(methods, scenes);
     this.#signal = signal;
     this.#model = new SpecModel(load_draft() ?? presets[0]?.spec ?? { scene: { type: scenes[0]?.id }, methods: [] });
@@ -47,11 +48,17 @@ class CompareView {
       { class: "compare" },
       el("h1", {}, "New comparison"),
       this.#preset_row(presets),
+      suite_chooser(suites, (spec) => this.#start_from(spec)),
       this.#tabs(),
       el("div", { class: "submit-bar" }, this.#state, this.#run),
     );
     this.#write_text();
     this.#changed();
+  }
+
+  #start_from(spec) {
+    this.#model.replace(spec);
+    this.#write_text();
   }
 
   #preset_row(presets) {
@@ -64,10 +71,7 @@ class CompareView {
           {
             type: "button",
             class: "preset",
-            onclick: () => {
-              this.#model.replace(preset.spec);
-              this.#write_text();
-            },
+            onclick: () => this.#start_from(preset.spec),
           },
           el("strong", {}, preset.name),
           el("span", {}, preset.summary),
@@ -252,8 +256,9 @@ export async function show_compare(main, signal) {
   document.title = "New comparison – Sheer";
   set_children(main, el("p", { class: "muted" }, "Loading…"));
   try {
-    const [methods, scenes] = await Promise.all([get_methods(), get_scenes()]);
-    if (!signal.aborted) set_children(main, new CompareView({ methods, scenes }, signal).element);
+    // Without the suites there is the form all the same.
+    const [methods, scenes, suites] = await Promise.all([get_methods(), get_scenes(), get_suites().catch(() => [])]);
+    if (!signal.aborted) set_children(main, new CompareView({ methods, scenes, suites }, signal).element);
   } catch (error) {
     if (!signal.aborted)
       set_children(

@@ -1,8 +1,13 @@
 // A finished report as a page part. The served page and the self-contained file both show reports with this.
-import { el, select, set_children } from "./dom.js";
+import { value_at } from "./columns.js";
+import { el, set_children } from "./dom.js";
 import { fixed, is_number, short_value, when, words } from "./format.js";
+import { frontier_section } from "./frontier_view.js";
 import { ImageViewer } from "./image_viewer.js";
 import { difference_table, fragment_table, timing_table } from "./result_tables.js";
+import { suite_section } from "./suite_view.js";
+import { axes_of, point_text } from "./sweep.js";
+import { SweepView } from "./sweep_view.js";
 
 const KIND_ORDER = ["color", "difference", "flip", "overdraw", "shaded", "saturation"];
 const COUNT_NOTES = {
@@ -88,6 +93,17 @@ export function scene_text(scene) {
   return [type, ...facts].join(" · ");
 }
 
+/** The spec without the fields that its sweep sets. */
+function unswept(spec) {
+  const copy = structuredClone(spec);
+  for (const pointer of axes_of(spec).flatMap(({ points }) => points.flatMap(Object.keys))) {
+    const parts = pointer.split("/").slice(1);
+    const owner = value_at(copy, parts.slice(0, -1).join("."));
+    if (owner && !Array.isArray(owner)) delete owner[parts.at(-1)];
+  }
+  return copy;
+}
+
 function facts(entries) {
   return el(
     "dl",
@@ -111,8 +127,9 @@ function reference_text(run) {
 }
 
 function header(report) {
-  const { spec = {}, device = {}, verdict } = report;
+  const { spec = {}, device = {}, verdict, runs = [] } = report;
   const image = spec.image ?? {};
+  const axes = axes_of(spec);
   const tags = Object.entries(spec.tags ?? {});
   return el(
     "header",
@@ -125,9 +142,10 @@ function header(report) {
       tags.map(([name, value]) => el("span", { class: "chip tag" }, `${name}: ${short_value(value)}`)),
     ),
     facts([
-      ["Scene", scene_text(spec.scene)],
+      ["Scene", scene_text(unswept(spec).scene)],
+      ...axes.map((axis) => ["Sweep", `${axis.name}: ${axis.stops.map((stop) => stop.text).join(" · ")}`]),
       ["Image", image.width ? `${image.width} × ${image.height} px, ${image.format}` : ""],
-      ["Reference", reference_text(report.runs?.[0] ?? {})],
+      ["Reference", runs.length === 1 ? reference_text(runs[0]) : ""],
       ["Device", [device.renderer, device.context].filter(Boolean).join(", ")],
       ["Done", when(report.finished_at)],
     ]),
@@ -165,9 +183,7 @@ function checks_list(report) {
       "ul",
       {},
       checks.map((check) => {
-        const point = Object.entries(check.at ?? {})
-          .map(([name, value]) => `${name} ${short_value(value)}`)
-          .join(", ");
+        const point = point_text(check.at, report.spec);
         return el(
           "li",
           { class: check.passed ? "passed" : "failed" },
@@ -224,8 +240,10 @@ function run_part(report, run, options) {
   const times = timing_table(run, context);
   const fragments = fragment_table(run.results, context);
   return [
+    report.runs.length > 1 ? facts([["Reference", reference_text(run)]]) : null,
     viewer.element,
     linear_links(run, picture_url),
+    frontier_section(run),
     report.device?.software ? [fragments, times] : [times, fragments],
     difference_table(run.results, context),
   ];
@@ -238,23 +256,6 @@ function run_size(report, run) {
     width: run.point?.["/image/width"] ?? image.width ?? 512,
     height: run.point?.["/image/height"] ?? image.height ?? 512,
   };
-}
-
-function point_select(runs, on_choose) {
-  const name = (run) =>
-    Object.entries(run.point ?? {})
-      .map(([key, value]) => `${key} ${short_value(value)}`)
-      .join(", ");
-  return el(
-    "label",
-    { class: "point-select" },
-    "Point ",
-    select(
-      { onchange: (event) => on_choose(runs[Number(event.target.value)]) },
-      runs.map((run, index) => [String(index), name(run) || `run ${index + 1}`]),
-      "0",
-    ),
-  );
 }
 
 function origin(report) {
@@ -291,8 +292,10 @@ export function report_view(report, { picture_url, methods = [], metrics = [], a
   const options = { picture_url, methods, metrics };
   const runs = report.runs ?? [];
   const place = el("div", { class: "run" });
-  const show = (run) => set_children(place, run_part(report, run, options));
-  if (runs.length > 0) show(runs[0]);
+  const show = (run) =>
+    set_children(place, run ? run_part(report, run, options) : el("p", { class: "notice" }, "This point has no results."));
+  const sweep = runs.length > 1 ? new SweepView(report, show) : null;
+  if (runs.length === 1) show(runs[0]);
   return el(
     "article",
     { class: "report", "aria-label": "Report" },
@@ -301,7 +304,8 @@ export function report_view(report, { picture_url, methods = [], metrics = [], a
     software_notice(report.device),
     report.error ? el("p", { class: "notice error", role: "alert" }, error_text(report.error)) : null,
     checks_list(report),
-    runs.length > 1 ? point_select(runs, show) : null,
+    suite_section(report),
+    sweep ? [sweep.element, sweep.point_choice] : null,
     place,
     origin(report),
   );

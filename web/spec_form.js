@@ -3,6 +3,7 @@ import { el, select, set_children, unique_id } from "./dom.js";
 import { field_frame, fields_of, new_entry } from "./param_form.js";
 import { pointer_of } from "./spec_model.js";
 import { CHECK_BOUNDS, CHECK_METRICS, IMAGE_FIELDS, TIMING_FIELDS } from "./spec_fields.js";
+import { SweepForm } from "./sweep_form.js";
 
 const same_id = (a, b) => String(a).toLowerCase() === String(b).toLowerCase();
 
@@ -13,6 +14,7 @@ export class SpecForm {
   #list = el("ol", { class: "method-list" });
   #baseline_place = el("div", { class: "stacked" });
   #checks = el("ol", { class: "check-list" });
+  #sweep;
 
   constructor(model, { methods, scenes }) {
     this.#model = model;
@@ -29,7 +31,15 @@ export class SpecForm {
 
   /** Everything anew, after the spec was exchanged. */
   draw() {
-    const left = el("div", { class: "column" }, this.#scene_section(), this.#image_section(), this.#timing_section());
+    this.#sweep = new SweepForm(this.#model, () => this.#sweep_groups());
+    const left = el(
+      "div",
+      { class: "column" },
+      this.#scene_section(),
+      this.#image_section(),
+      this.#timing_section(),
+      this.#sweep.element,
+    );
     const right = el(
       "div",
       { class: "column" },
@@ -119,6 +129,21 @@ export class SpecForm {
     return this.#section("Scene", "/scene", frame, info ? fields_of(info.parameters, ["scene"], this.#model) : null);
   }
 
+  /** What a sweep may vary: parameters of the scene, the image and each method. */
+  #sweep_groups() {
+    const scene = this.#scenes.find((one) => same_id(one.id, this.#model.get(["scene", "type"])));
+    const labels = this.#labels;
+    return [
+      { label: "Scene", params: scene?.parameters ?? [], path: ["scene"] },
+      { label: "Image", params: IMAGE_FIELDS, path: ["image"] },
+      ...this.#method_specs.map((method, index) => ({
+        label: labels[index],
+        params: this.#methods.find((one) => same_id(one.id, method.id))?.parameters ?? [],
+        path: ["methods", index],
+      })),
+    ];
+  }
+
   /** Parameters that the new scene has as well are kept. */
   #choose_scene(type) {
     const info = this.#scenes.find((scene) => scene.id === type);
@@ -132,6 +157,7 @@ export class SpecForm {
     this.#model.set(["scene"], scene);
     const section = this.element.querySelector("[data-pointer='/scene']");
     section.replaceWith(this.#scene_section());
+    this.#sweep.draw();
     this.element.querySelector("[data-pointer='/scene'] select").focus();
   }
 
@@ -175,6 +201,7 @@ export class SpecForm {
     this.#draw_methods();
     this.#draw_baseline();
     this.#draw_checks();
+    this.#sweep.draw();
   }
 
   #draw_methods() {
@@ -214,6 +241,7 @@ export class SpecForm {
         this.#model.set([...path, "label"], label.value === "" ? undefined : label.value);
         this.#draw_baseline();
         this.#draw_checks();
+        this.#sweep.draw();
       },
     });
     const copy = () => {

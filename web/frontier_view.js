@@ -1,0 +1,62 @@
+// Speed against error of a run's methods: which of them are worth their time, as a chart and in words.
+import { scatter_chart } from "./chart.js";
+import { value_at } from "./columns.js";
+import { el } from "./dom.js";
+import { column_decimals, fixed, is_number } from "./format.js";
+
+/** Null where the report has no frontier. */
+export function frontier_section(run) {
+  const { frontier } = run;
+  if (!frontier) return null;
+  const error_path = `metrics.${frontier.error ?? "flip.mean"}`;
+  const by = new Map(frontier.dominated.map((entry) => [entry.method, entry.by]));
+  const measured = run.results
+    .map((result, index) => ({
+      result,
+      index,
+      time_ms: value_at(result, "timing.median"),
+      error: value_at(result, error_path),
+    }))
+    .filter(({ time_ms, error }) => is_number(time_ms) && is_number(error) && time_ms > 0);
+  if (measured.length === 0) return null;
+  const time_decimals = column_decimals(measured.map((one) => one.time_ms));
+  const error_decimals = column_decimals(measured.map((one) => one.error));
+  const points = measured.map(({ result, index, time_ms, error }) => {
+    const better = by.get(result.label);
+    const interval = result.timing.ci95;
+    const range = interval ? ` [${interval.map((bound) => fixed(bound, time_decimals)).join(", ")}]` : "";
+    return {
+      label: result.label,
+      index,
+      x: time_ms,
+      y: error,
+      x_interval: interval,
+      grey: better !== undefined,
+      lines: [
+        el("strong", {}, result.label),
+        el("span", {}, `${fixed(time_ms, time_decimals)} ms${range}`),
+        el("span", {}, `FLIP mean ${fixed(error, error_decimals)}`),
+        better === undefined ? null : el("span", {}, `dominated by ${better}`),
+      ],
+    };
+  });
+  return el(
+    "section",
+    { class: "frontier", "aria-label": "Speed against error" },
+    scatter_chart({
+      title: "Speed against error",
+      unit: "mean FLIP error",
+      x_name: "time, ms",
+      label: `Time and mean FLIP error of ${points.length} methods; the arrow keys read the values`,
+      points,
+    }),
+    el(
+      "div",
+      { class: "frontier-text" },
+      el("ul", {}, frontier.sentences.map((sentence) => el("li", {}, sentence))),
+      frontier.dominated.map(({ method, by: better }) =>
+        el("p", { class: "muted" }, `${method} is grey: ${better} is at least as fast and at least as near to the reference.`),
+      ),
+    ),
+  );
+}

@@ -1,0 +1,47 @@
+// The choice of a published table to repeat, at its own size or smaller.
+import { el, select } from "./dom.js";
+
+const SCALES = [
+  ["1", "as published"],
+  ["0.5", "1/2"],
+  ["0.25", "1/4"],
+  ["0.125", "1/8"],
+];
+
+/** A suite's spec with the sides of its image times `scale`; scene and textures stay as they are, so overdraw does too. */
+export function scaled_spec(spec, scale) {
+  const side = (length) => Math.max(1, Math.round(length * scale));
+  return { ...spec, image: { ...spec.image, width: side(spec.image.width), height: side(spec.image.height) } };
+}
+
+/** Null where the service has no suites. `on_spec(spec)` hears of what was chosen. */
+export function suite_chooser(suites, on_spec) {
+  if (suites.length === 0) return null;
+  const name = (suite) => `${suite.id.replace(/^paper-table-/, "Table ")}: ${suite.title}`;
+  const hint = el("p", { class: "hint", role: "status" });
+  const chosen = () => suites.find((suite) => suite.id === table.value);
+  const table = select(
+    { onchange: () => tell() },
+    suites.map((suite) => [suite.id, name(suite)]),
+    suites[0].id,
+  );
+  const scale = select({ onchange: () => tell() }, SCALES, "0.25");
+  const tell = () => {
+    const { source, device, spec } = chosen();
+    const { width, height } = scaled_spec(spec, Number(scale.value)).image;
+    hint.textContent = `${source}, measured on ${device}. Here at ${width} × ${height} px.`;
+  };
+  tell();
+  return el(
+    "div",
+    { class: "suite-row", role: "group", "aria-label": "Repeat a published table" },
+    el("label", {}, "Repeat a published table", table),
+    el("label", {}, "Image", scale),
+    el(
+      "button",
+      { type: "button", onclick: () => on_spec(scaled_spec(chosen().spec, Number(scale.value))) },
+      "Fill in",
+    ),
+    hint,
+  );
+}

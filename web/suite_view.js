@@ -1,0 +1,102 @@
+// A repeated publication: its figures beside those measured here, and whether its trends hold.
+import { DIFFERENCE_COLUMNS, FRAGMENT_COLUMNS, SPEEDUP_COLUMN, TIMING_COLUMNS } from "./columns.js";
+import { el } from "./dom.js";
+import { DASH, is_number } from "./format.js";
+import { point_text } from "./sweep.js";
+
+const DIGITS = 3;
+const VERDICTS = { holds: "passed", fails: "failed" };
+
+/** A figure at three digits, as a paper prints it. */
+export function figure_text(value) {
+  if (Array.isArray(value)) return value.map(figure_text).join(" to ");
+  if (!is_number(value)) return DASH;
+  const text = Number.isInteger(value) ? String(value) : value.toPrecision(DIGITS);
+  return (/e/.test(text) ? String(Number(text)) : text).replaceAll("-", "−");
+}
+
+function metric_text(metric) {
+  const columns = [...TIMING_COLUMNS, SPEEDUP_COLUMN, ...FRAGMENT_COLUMNS, ...DIFFERENCE_COLUMNS];
+  const column = columns.find((one) => [one.path, one.metric].includes(metric) || one.path === `${metric}.value`);
+  if (!column) return metric;
+  return [column.head, column.unit ? el("span", { class: "unit" }, column.unit) : null];
+}
+
+function figure_row(figure, place) {
+  const number = (value) => el("td", { class: "number" }, figure_text(value));
+  return el(
+    "tr",
+    {},
+    place,
+    el("td", {}, figure.method),
+    el("td", {}, metric_text(figure.metric)),
+    number(figure.published),
+    number(figure.measured),
+    el("td", { class: "number muted" }, figure.ci95 ? `[${figure.ci95.map(figure_text).join(", ")}]` : DASH),
+  );
+}
+
+function figures_table(figures, spec) {
+  const place_of = (figure) => point_text(figure.at, spec);
+  const with_place = figures.some((figure) => place_of(figure) !== "");
+  const rows = figures.map((figure, index) => {
+    const place = place_of(figure);
+    if (!with_place) return figure_row(figure, null);
+    if (index > 0 && place_of(figures[index - 1]) === place) return figure_row(figure, null);
+    let span = 1;
+    while (index + span < figures.length && place_of(figures[index + span]) === place) ++span;
+    return figure_row(figure, el("th", { scope: "rowgroup", rowspan: span }, place));
+  });
+  const heads = ["Method", "Figure", "Published", "Measured", "95 % interval"];
+  return el(
+    "div",
+    { class: "table-box", tabindex: "0", role: "region", "aria-label": "Published and measured" },
+    el(
+      "table",
+      { class: "results suite-figures" },
+      el("caption", {}, "Published and measured"),
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          with_place ? el("th", { scope: "col" }, "Point") : null,
+          heads.map((head, index) => el("th", { scope: "col", class: index >= 2 ? "number" : null }, head)),
+        ),
+      ),
+      el("tbody", {}, rows),
+    ),
+  );
+}
+
+function trend_item(trend) {
+  const verdict = VERDICTS[trend.verdict] ?? "open";
+  return el(
+    "li",
+    {},
+    el("span", { class: `verdict small ${verdict}` }, trend.verdict),
+    el("div", {}, el("p", {}, trend.text), trend.detail ? el("p", { class: "muted" }, trend.detail) : null),
+  );
+}
+
+/** Null where the report repeats no publication. */
+export function suite_section(report) {
+  const { suite } = report;
+  if (!suite) return null;
+  return el(
+    "section",
+    { class: "suite", "aria-label": "Published figures" },
+    el(
+      "div",
+      { class: "suite-text" },
+      el("h2", {}, suite.title ?? "Published figures"),
+      el("p", {}, suite.source),
+      el("p", { class: "muted" }, `Published on ${suite.device}; measured on ${report.device?.renderer ?? "this device"}.`),
+      suite.trends?.length > 0
+        ? el("ul", { class: "trends", "aria-label": "Trends" }, suite.trends.map(trend_item))
+        : null,
+    ),
+    figures_table(suite.figures ?? [], report.spec),
+  );
+}
