@@ -56,6 +56,11 @@ export async function get_scenes() {
 export async function get_metrics() {
   return (await call("/metrics")).body;
 }
+/** Ready specs to start from: [{id, spec}]. */
+export async function get_examples() {
+  return (await call("/specs/examples")).body;
+}
+
 /** Published measurements that can be repeated. */
 export async function get_suites() {
   return (await call("/suites")).body;

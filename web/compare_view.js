@@ -1,9 +1,9 @@
 // A new comparison at #/: a form and the same spec as JSON, checked by the service while it is written.
-import { get_methods, get_scenes, get_suites, submit, validate } from "./api.js";
+import { get_examples, get_methods, get_scenes, get_suites, submit, validate } from "./api.js";
 import { el, set_children, unique_id } from "./dom.js";
 import { clear_errors, focus_first_error, show_errors } from "./field_errors.js";
 import { json_range } from "./json_position.js";
-import { presets_for } from "./presets.js";
+import { presets_of } from "./presets.js";
 import { SpecForm } from "./spec_form.js";
 import { keep_draft, load_draft, SpecModel } from "./spec_model.js";
 import { suite_chooser } from "./suite_chooser.js";
@@ -28,8 +28,8 @@ class CompareView {
   #loose_errors = el("ul", { class: "json-errors" });
   #run = el("button", { type: "button", class: "primary", onclick: () => this.#submit() }, "Run comparison");
 
-  constructor({ methods, scenes, suites }, signal) {
-    const presets = presets_for(methods, scenes);
+  constructor({ methods, scenes, suites, examples }, signal) {
+    const presets = presets_of(examples);
     this.#signal = signal;
     this.#model = new SpecModel(load_draft() ?? presets[0]?.spec ?? { scene: { type: scenes[0]?.id }, methods: [] });
     this.#form = new SpecForm(this.#model, { methods, scenes });
@@ -256,9 +256,15 @@ export async function show_compare(main, signal) {
   document.title = "New comparison – Sheer";
   set_children(main, el("p", { class: "muted" }, "Loading…"));
   try {
-    // Without the suites there is the form all the same.
-    const [methods, scenes, suites] = await Promise.all([get_methods(), get_scenes(), get_suites().catch(() => [])]);
-    if (!signal.aborted) set_children(main, new CompareView({ methods, scenes, suites }, signal).element);
+    // Without what one can start from there is the form all the same.
+    const none = () => [];
+    const [methods, scenes, suites, examples] = await Promise.all([
+      get_methods(),
+      get_scenes(),
+      get_suites().catch(none),
+      get_examples().catch(none),
+    ]);
+    if (!signal.aborted) set_children(main, new CompareView({ methods, scenes, suites, examples }, signal).element);
   } catch (error) {
     if (!signal.aborted)
       set_children(

@@ -59,7 +59,7 @@ export function value_axis(kind, values, wanted = 5) {
 /** Of places in pixels in rising order, those whose names have `room_px` to the one before; the last one is kept. */
 export function thinned(places, room_px) {
   const kept = [];
-  for (const place of places.toReversed()) if (kept.length === 0 || kept[0] - place >= room_px) kept.unshift(place);
+  for (const place of [...places].reverse()) if (kept.length === 0 || kept[0] - place >= room_px) kept.unshift(place);
   return kept;
 }
 

@@ -85,7 +85,32 @@ export class SpecForm {
     const title = { name: "title", kind: "text", default: "", summary: "", placeholder: "What is compared" };
     const fields = fields_of([title], [], this.#model);
     fields.append(this.#tags_field());
-    return el("section", { class: "card title-card", "aria-label": "Title and tags" }, fields);
+    return el("section", { class: "card title-card", "aria-label": "Title and tags" }, fields, this.#suite_note());
+  }
+
+  /** The published figures stay with a spec while it is changed, until they are let go. */
+  #suite_note() {
+    const suite = this.#model.get(["suite"]);
+    if (!suite) return null;
+    const note = el(
+      "p",
+      { class: "suite-note", "data-pointer": "/suite" },
+      `The report will hold the published figures of ${suite} beside what is measured. `,
+      el(
+        "button",
+        {
+          type: "button",
+          class: "link",
+          onclick: () => {
+            this.#model.set(["suite"], undefined);
+            note.remove();
+          },
+        },
+        "Leave them out",
+      ),
+      el("span", { class: "error-text", hidden: true }),
+    );
+    return note;
   }
 
   #tags_field() {

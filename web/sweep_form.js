@@ -12,7 +12,8 @@ export function read_values(text) {
   try {
     return JSON.parse(`[${text}]`);
   } catch {
-    return text.split(",").map((part) => {
+    const parts = text.split(",").filter((part) => part.trim() !== "");
+    return parts.map((part) => {
       try {
         return JSON.parse(part);
       } catch {
@@ -27,11 +28,12 @@ export function values_text(values) {
   return values.map((value) => (typeof value === "string" ? value : JSON.stringify(value))).join(", ");
 }
 
-/** Paths of the parameters that have one value, those within objects among them. */
-function leaves(params, path) {
+/** The parameters that have one value, those within objects among them, but not within objects that are left out. */
+function leaves(params, path, model) {
   return params.flatMap((param) => {
     const here = [...path, param.name];
-    if (param.kind === "object") return leaves(param.fields ?? [], here);
+    if (param.optional && (model.get(here) ?? null) === null) return [];
+    if (param.kind === "object") return leaves(param.fields ?? [], here, model);
     return param.kind === "list" ? [] : [{ pointer: pointer_of(here), param }];
   });
 }
@@ -75,7 +77,7 @@ export class SweepForm {
 
   get #groups() {
     return this.#groups_now()
-      .map(({ label, params, path }) => ({ label, fields: leaves(params, path) }))
+      .map(({ label, params, path }) => ({ label, fields: leaves(params, path, this.#model) }))
       .filter(({ fields }) => fields.length > 0);
   }
 

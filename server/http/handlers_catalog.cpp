@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "embedded_specs.h"
+#include "renderer/errors.h"
 #include "renderer/report/report.h"
 #include "renderer/spec/spec.h"
 #include "renderer/spec/suites.h"
@@ -33,6 +35,22 @@ Handler fixed_json(const json& body) {
     return [response](const Request&) { return response; };
 }
 
+/// The specs of configs/specs that can be posted as they are; one that refers to a file beside it cannot.
+json describe_examples() {
+    const AssetRule no_files = [](const AssetReference&) { return "is a file"; };
+    json examples = json::array();
+    for (const EmbeddedFile& file : embedded_specs()) {
+        const json spec = json::parse(file.bytes);
+        try {
+            parse_spec(spec, no_files);
+        } catch (const SpecError&) {
+            continue;
+        }
+        examples.push_back({{"id", file.path.substr(0, file.path.rfind('.'))}, {"spec", spec}});
+    }
+    return examples;
+}
+
 Answer get_devices(Service& service) {
     try {
         return json_response(200, service.list_devices());
@@ -54,6 +72,8 @@ std::vector<Route> catalog_routes(Service& service) {
                       fixed_json(describe_metrics())),
         catalog_route("/api/v1/suites", "listSuites", "Published measurements that can be repeated: post their spec",
                       fixed_json(describe_suites())),
+        catalog_route("/api/v1/specs/examples", "listExamples", "Ready specs to start from: post them",
+                      fixed_json(describe_examples())),
         catalog_route("/api/v1/devices", "listDevices", "The devices that can render",
                       [&service](const Request&) { return get_devices(service); })};
 }
