@@ -9,6 +9,7 @@ const TOP = 10;
 const RIGHT = 16;
 const BOTTOM = 38;
 const LETTER = 6.4; // width of a letter of a tick, about
+const GAP = 12; // between a target and what is said of it
 const FLAT = 0.25; // of the greatest value: a smaller spread is shown without 0
 const DODGE = 7; // between methods at one category
 const COLOURS = 8;
@@ -119,11 +120,27 @@ class Plot {
     this.#guide.setAttribute("x1", target.x);
     this.#guide.setAttribute("x2", target.x);
     set_children(this.#readout, target.lines);
-    const box = this.#readout.parentElement.clientWidth;
-    const width = this.#readout.offsetWidth;
-    const beside = target.x + 12 + width <= box ? target.x + 12 : target.x - 12 - width;
-    this.#readout.style.left = `${Math.max(0, Math.min(beside, box - width))}px`;
-    this.#readout.style.top = `${TOP}px`;
+    this.#readout.style.left = "0"; // where nothing narrows it
+    const [left, top] = this.#free_place(target);
+    this.#readout.style.left = `${left}px`;
+    this.#readout.style.top = `${top}px`;
+  }
+
+  /** Where the readout goes, beside its target: within the chart, over as few other targets as can be. */
+  #free_place({ x, y }) {
+    const { offsetWidth: width, offsetHeight: height, parentElement: box } = this.#readout;
+    const within = (place, size, all) => Math.max(0, Math.min(place, all - size));
+    const places = [x + GAP, x - GAP - width].flatMap((left) =>
+      (y === undefined ? [TOP] : [y + GAP, y - GAP - height, y - height / 2]).map((top) => [
+        within(left, width, box.clientWidth),
+        within(top, height, HEIGHT),
+      ]),
+    );
+    const covered = ([left, top]) =>
+      this.#targets.filter(
+        (one) => one.x > left && one.x < left + width && (one.y === undefined || (one.y > top && one.y < top + height)),
+      ).length;
+    return places.reduce((best, place) => (covered(place) < covered(best) ? place : best));
   }
 }
 
@@ -138,7 +155,12 @@ function y_axis_nodes(ticks, y, left, right) {
 function x_axis_nodes(stops, name, left, right) {
   const base = HEIGHT - BOTTOM;
   const longest = Math.max(...stops.map(({ text }) => text.length));
-  const kept = new Set(thinned(stops.map(({ at }) => at), longest * LETTER + 8));
+  const kept = new Set(
+    thinned(
+      stops.map(({ at }) => at),
+      longest * LETTER + 8,
+    ),
+  );
   const half = (text) => (text.length * LETTER) / 2;
   return [
     svg("line", { class: "axis", x1: left, x2: right, y1: base, y2: base }),
@@ -228,7 +250,9 @@ export function line_chart({ title, heading = title, unit, x, series, mark, show
     const readout_stops = order.map((stop) => ({ at: places[stop], text: x.stops[stop].text }));
     return {
       nodes: [
-        is_number(chosen) ? svg("line", { class: "chosen", x1: places[chosen], x2: places[chosen], y1: TOP, y2: HEIGHT - BOTTOM }) : null,
+        is_number(chosen)
+          ? svg("line", { class: "chosen", x1: places[chosen], x2: places[chosen], y1: TOP, y2: HEIGHT - BOTTOM })
+          : null,
         y_axis_nodes(axis.ticks, y, left, right),
         is_number(mark) ? svg("line", { class: "mark", x1: left, x2: right, y1: y(mark), y2: y(mark) }) : null,
         x_axis_nodes(readout_stops, x.name, left, right),
@@ -281,7 +305,10 @@ function name_nodes(points, right) {
  * 0; grey ones are drawn back; a line of steps joins the others. `lines` are shown for the point.
  */
 export function scatter_chart({ title, unit, x_name, label, points }) {
-  const x_axis = value_axis("log", points.flatMap((point) => [point.x, ...(point.x_interval ?? [])]));
+  const x_axis = value_axis(
+    "log",
+    points.flatMap((point) => [point.x, ...(point.x_interval ?? [])]),
+  );
   const y_axis = value_axis("linear", [0, ...points.map((point) => point.y)]);
   const paint = (width) => {
     const left = left_margin(y_axis.ticks);
@@ -300,7 +327,12 @@ export function scatter_chart({ title, unit, x_name, label, points }) {
     return {
       nodes: [
         y_axis_nodes(y_axis.ticks, y, left, right),
-        x_axis_nodes(x_axis.ticks.map((tick) => ({ at: x(tick), text: tick_text(tick) })), x_name, left, right),
+        x_axis_nodes(
+          x_axis.ticks.map((tick) => ({ at: x(tick), text: tick_text(tick) })),
+          x_name,
+          left,
+          right,
+        ),
         svg("path", { class: "front", d: steps }),
         bars,
         placed.map((point) => marker(point.index, point.x, point.y, point.grey ? "grey" : "")),

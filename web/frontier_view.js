@@ -53,9 +53,17 @@ export function frontier_section(run) {
     el(
       "div",
       { class: "frontier-text" },
-      el("ul", {}, frontier.sentences.map((sentence) => el("li", {}, sentence))),
+      el(
+        "ul",
+        {},
+        frontier.sentences.map((sentence) => el("li", {}, sentence)),
+      ),
       frontier.dominated.map(({ method, by: better }) =>
-        el("p", { class: "muted" }, `${method} is grey: ${better} is at least as fast and at least as near to the reference.`),
+        el(
+          "p",
+          { class: "muted" },
+          `${method} is grey: ${better} is at least as fast and at least as near to the reference.`,
+        ),
       ),
     ),
   );

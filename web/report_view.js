@@ -293,7 +293,10 @@ export function report_view(report, { picture_url, methods = [], metrics = [], a
   const runs = report.runs ?? [];
   const place = el("div", { class: "run" });
   const show = (run) =>
-    set_children(place, run ? run_part(report, run, options) : el("p", { class: "notice" }, "This point has no results."));
+    set_children(
+      place,
+      run ? run_part(report, run, options) : el("p", { class: "notice" }, "This point has no results."),
+    );
   const sweep = runs.length > 1 ? new SweepView(report, show) : null;
   if (runs.length === 1) show(runs[0]);
   return el(

@@ -1,11 +1,10 @@
 // The form of a spec: scene, image, methods, reference, timing and checks, made from the service's self-description.
 import { el, select, set_children, unique_id } from "./dom.js";
 import { field_frame, fields_of, new_entry } from "./param_form.js";
-import { pointer_of } from "./spec_model.js";
+import { pointer_of, same_id } from "./spec_model.js";
 import { CHECK_BOUNDS, CHECK_METRICS, IMAGE_FIELDS, TIMING_FIELDS } from "./spec_fields.js";
+import { suite_note } from "./suite_chooser.js";
 import { SweepForm } from "./sweep_form.js";
-
-const same_id = (a, b) => String(a).toLowerCase() === String(b).toLowerCase();
 
 export class SpecForm {
   #model;
@@ -31,7 +30,11 @@ export class SpecForm {
 
   /** Everything anew, after the spec was exchanged. */
   draw() {
-    this.#sweep = new SweepForm(this.#model, () => this.#sweep_groups());
+    this.#sweep = new SweepForm(this.#model, {
+      methods: this.#methods,
+      scenes: this.#scenes,
+      labels: () => this.#labels,
+    });
     const left = el(
       "div",
       { class: "column" },
@@ -85,32 +88,7 @@ export class SpecForm {
     const title = { name: "title", kind: "text", default: "", summary: "", placeholder: "What is compared" };
     const fields = fields_of([title], [], this.#model);
     fields.append(this.#tags_field());
-    return el("section", { class: "card title-card", "aria-label": "Title and tags" }, fields, this.#suite_note());
-  }
-
-  /** The published figures stay with a spec while it is changed, until they are let go. */
-  #suite_note() {
-    const suite = this.#model.get(["suite"]);
-    if (!suite) return null;
-    const note = el(
-      "p",
-      { class: "suite-note", "data-pointer": "/suite" },
-      `The report will hold the published figures of ${suite} beside what is measured. `,
-      el(
-        "button",
-        {
-          type: "button",
-          class: "link",
-          onclick: () => {
-            this.#model.set(["suite"], undefined);
-            note.remove();
-          },
-        },
-        "Leave them out",
-      ),
-      el("span", { class: "error-text", hidden: true }),
-    );
-    return note;
+    return el("section", { class: "card title-card", "aria-label": "Title and tags" }, fields, suite_note(this.#model));
   }
 
   #tags_field() {
@@ -152,21 +130,6 @@ export class SpecForm {
       { for_id: id },
     );
     return this.#section("Scene", "/scene", frame, info ? fields_of(info.parameters, ["scene"], this.#model) : null);
-  }
-
-  /** What a sweep may vary: parameters of the scene, the image and each method. */
-  #sweep_groups() {
-    const scene = this.#scenes.find((one) => same_id(one.id, this.#model.get(["scene", "type"])));
-    const labels = this.#labels;
-    return [
-      { label: "Scene", params: scene?.parameters ?? [], path: ["scene"] },
-      { label: "Image", params: IMAGE_FIELDS, path: ["image"] },
-      ...this.#method_specs.map((method, index) => ({
-        label: labels[index],
-        params: this.#methods.find((one) => same_id(one.id, method.id))?.parameters ?? [],
-        path: ["methods", index],
-      })),
-    ];
   }
 
   /** Parameters that the new scene has as well are kept. */

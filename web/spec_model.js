@@ -8,6 +8,9 @@ export function pointer_of(path) {
   return path.map((part) => `/${String(part).replaceAll("~", "~0").replaceAll("/", "~1")}`).join("");
 }
 
+/** Ids are matched without regard to case. */
+export const same_id = (a, b) => String(a).toLowerCase() === String(b).toLowerCase();
+
 /** Whether a plain text at this path stands for an object with that id: a method or the reference. */
 function is_method_place(path) {
   return (path.length === 2 && path[0] === "methods") || (path.length === 1 && path[0] === "reference");

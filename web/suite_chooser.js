@@ -45,3 +45,21 @@ export function suite_chooser(suites, on_spec) {
     hint,
   );
 }
+
+/** The published figures stay with a spec while it is changed, until they are let go. Null where it has none. */
+export function suite_note(model) {
+  const suite = model.get(["suite"]);
+  if (!suite) return null;
+  const leave_out = () => {
+    model.set(["suite"], undefined);
+    note.remove();
+  };
+  const note = el(
+    "div",
+    { class: "suite-note", "data-pointer": "/suite" },
+    `The report will hold the published figures of ${suite} beside what is measured. `,
+    el("button", { type: "button", class: "link", onclick: leave_out }, "Leave them out"),
+    el("p", { class: "error-text", hidden: true }),
+  );
+  return note;
+}

@@ -5,14 +5,20 @@ import { DASH, is_number } from "./format.js";
 import { point_text } from "./sweep.js";
 
 const DIGITS = 3;
+const ROUNDING_DIGITS = 6; // more than a paper prints
 const VERDICTS = { holds: "passed", fails: "failed" };
 
-/** A figure at three digits, as a paper prints it. */
-export function figure_text(value) {
-  if (Array.isArray(value)) return value.map(figure_text).join(" to ");
+function measured_text(value) {
   if (!is_number(value)) return DASH;
   const text = Number.isInteger(value) ? String(value) : value.toPrecision(DIGITS);
   return (/e/.test(text) ? String(Number(text)) : text).replaceAll("-", "−");
+}
+
+/** A published figure with the digits that it has: a number, or the ends of a range. */
+function published_text(value) {
+  if (Array.isArray(value))
+    return value[0] === value[1] ? published_text(value[0]) : value.map(published_text).join(" to ");
+  return is_number(value) ? String(Number(value.toPrecision(ROUNDING_DIGITS))).replaceAll("-", "−") : DASH;
 }
 
 function metric_text(metric) {
@@ -23,16 +29,16 @@ function metric_text(metric) {
 }
 
 function figure_row(figure, place) {
-  const number = (value) => el("td", { class: "number" }, figure_text(value));
+  const number = (text) => el("td", { class: "number" }, text);
   return el(
     "tr",
     {},
     place,
     el("td", {}, figure.method),
     el("td", {}, metric_text(figure.metric)),
-    number(figure.published),
-    number(figure.measured),
-    el("td", { class: "number muted" }, figure.ci95 ? `[${figure.ci95.map(figure_text).join(", ")}]` : DASH),
+    number(published_text(figure.published)),
+    number(measured_text(figure.measured)),
+    el("td", { class: "number muted" }, figure.ci95 ? `[${figure.ci95.map(measured_text).join(", ")}]` : DASH),
   );
 }
 
@@ -92,7 +98,11 @@ export function suite_section(report) {
       { class: "suite-text" },
       el("h2", {}, suite.title ?? "Published figures"),
       el("p", {}, suite.source),
-      el("p", { class: "muted" }, `Published on ${suite.device}; measured on ${report.device?.renderer ?? "this device"}.`),
+      el(
+        "p",
+        { class: "muted" },
+        `Published on ${suite.device}; measured on ${report.device?.renderer ?? "this device"}.`,
+      ),
       suite.trends?.length > 0
         ? el("ul", { class: "trends", "aria-label": "Trends" }, suite.trends.map(trend_item))
         : null,

@@ -1,7 +1,8 @@
 // The form's part for sweeps: which parameters are varied in one job, and over which values.
 import { el, select, set_children, unique_id } from "./dom.js";
 import { field_frame } from "./param_form.js";
-import { pointer_of } from "./spec_model.js";
+import { IMAGE_FIELDS } from "./spec_fields.js";
+import { pointer_of, same_id } from "./spec_model.js";
 import { field_name } from "./sweep.js";
 
 const MOST_AXES = 4;
@@ -34,26 +35,32 @@ function leaves(params, path, model) {
     const here = [...path, param.name];
     if (param.optional && (model.get(here) ?? null) === null) return [];
     if (param.kind === "object") return leaves(param.fields ?? [], here, model);
-    return param.kind === "list" ? [] : [{ pointer: pointer_of(here), param }];
+    return param.kind === "list" ? [] : [{ pointer: pointer_of(here), path: here, param }];
   });
 }
 
-/** Values to begin with: all choices, or the parameter's default. */
-function first_values(param) {
-  if (param?.choices?.length > 0) return [...param.choices];
-  const value = param?.default ?? param?.min;
-  return value === undefined || value === null ? [] : [value];
+/** Values to begin with: all choices, or the value that the parameter has now. */
+function first_values(field, model) {
+  if (!field) return [];
+  const { param, path } = field;
+  if (param.kind === "choice") return [...param.choices];
+  const value = model.get(path) ?? param.default ?? param.min ?? null;
+  return value === null ? [] : [value];
 }
 
 export class SweepForm {
   #model;
-  #groups_now;
+  #methods;
+  #scenes;
+  #labels;
   #rows = el("ol", { class: "sweep-list" });
 
-  /** `groups()` gives what can be swept now: [{label, params, path}]. */
-  constructor(model, groups) {
+  /** `labels()` gives the labels of the spec's methods. */
+  constructor(model, { methods, scenes, labels }) {
     this.#model = model;
-    this.#groups_now = groups;
+    this.#methods = methods;
+    this.#scenes = scenes;
+    this.#labels = labels;
     this.element = el(
       "section",
       { class: "card", "data-pointer": "/sweep", "aria-label": "Sweep" },
@@ -75,10 +82,21 @@ export class SweepForm {
     return Array.isArray(sweep) ? sweep : [];
   }
 
+  /** What can be swept now: parameters of the scene, the image and each method. */
   get #groups() {
-    return this.#groups_now()
-      .map(({ label, params, path }) => ({ label, fields: leaves(params, path, this.#model) }))
-      .filter(({ fields }) => fields.length > 0);
+    const scene = this.#scenes.find((one) => same_id(one.id, this.#model.get(["scene", "type"])));
+    const parameters = (index) => {
+      const id = this.#model.get(["methods", index, "id"]);
+      return this.#methods.find((one) => same_id(one.id, id))?.parameters ?? [];
+    };
+    return [
+      { label: "Scene", fields: leaves(scene?.parameters ?? [], ["scene"], this.#model) },
+      { label: "Image", fields: leaves(IMAGE_FIELDS, ["image"], this.#model) },
+      ...this.#labels().map((label, index) => ({
+        label,
+        fields: leaves(parameters(index), ["methods", index], this.#model),
+      })),
+    ].filter(({ fields }) => fields.length > 0);
   }
 
   #put(axes) {
@@ -92,7 +110,7 @@ export class SweepForm {
     const free = fields.filter(({ pointer }) => !taken.includes(pointer));
     const field = free.find(({ param }) => param.name === "count") ?? free[0];
     if (!field) return;
-    this.#put([...this.#axes, { pointer: field.pointer, values: first_values(field.param) }]);
+    this.#put([...this.#axes, { pointer: field.pointer, values: first_values(field, this.#model) }]);
     this.#rows.lastElementChild.querySelector("select").focus();
   }
 
@@ -136,10 +154,11 @@ export class SweepForm {
   #fields(axis, index, path) {
     const pointer_id = unique_id("field");
     const groups = this.#groups;
+    const named = { methods: this.#labels().map((label) => ({ label })) };
     const current = axis.pointer ?? "";
     const choices = groups.map(({ label, fields }) => ({
       label,
-      choices: fields.map(({ pointer }) => [pointer, field_name(pointer, this.#named_spec())]),
+      choices: fields.map(({ pointer }) => [pointer, field_name(pointer, named)]),
     }));
     const known = groups.flatMap((group) => group.fields).find(({ pointer }) => pointer === current);
     if (!known) choices.unshift([current, current === "" ? "Choose a parameter" : `${current} (unknown)`]);
@@ -148,7 +167,7 @@ export class SweepForm {
         id: pointer_id,
         onchange: () => {
           const field = groups.flatMap((group) => group.fields).find((one) => one.pointer === pointer.value);
-          const next = { pointer: pointer.value, values: first_values(field?.param) };
+          const next = { pointer: pointer.value, values: first_values(field, this.#model) };
           this.#put(this.#axes.with(index, next));
           this.#rows.children[index].querySelector("select").focus();
         },
@@ -171,19 +190,9 @@ export class SweepForm {
       field_frame({ name: "parameter", kind: "choice", summary: "" }, [...path, "pointer"], pointer, {
         for_id: pointer_id,
       }),
-      field_frame(
-        { name: "values", kind: "text", summary: "separated by commas" },
-        [...path, "values"],
-        values,
-        { for_id: values_id },
-      ),
+      field_frame({ name: "values", kind: "text", summary: "separated by commas" }, [...path, "values"], values, {
+        for_id: values_id,
+      }),
     );
-  }
-
-  /** The spec with methods named as their groups are. */
-  #named_spec() {
-    const methods = [];
-    for (const { label, path } of this.#groups_now()) if (path[0] === "methods") methods[path[1]] = { label };
-    return { methods };
   }
 }

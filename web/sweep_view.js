@@ -1,6 +1,13 @@
 // The part of a report that is there for sweeps: charts of times and metrics, and the choice of the point to look at.
 import { legend, line_chart } from "./chart.js";
-import { DIFFERENCE_COLUMNS, FRAGMENT_COLUMNS, SPEEDUP_COLUMN, TIMING_COLUMNS, missing_reason, value_at } from "./columns.js";
+import {
+  DIFFERENCE_COLUMNS,
+  FRAGMENT_COLUMNS,
+  SPEEDUP_COLUMN,
+  TIMING_COLUMNS,
+  missing_reason,
+  value_at,
+} from "./columns.js";
 import { el, select, set_children } from "./dom.js";
 import { column_decimals, DASH, fixed, integer, is_number } from "./format.js";
 import { axes_of, point_text, runs_along, series_along, stops_of } from "./sweep.js";
@@ -41,7 +48,12 @@ function values_table(axis, along, columns) {
     ),
   );
   const heads = columns.map((column) =>
-    el("th", { scope: "col", class: "number" }, column.head, column.unit ? el("span", { class: "unit" }, column.unit) : null),
+    el(
+      "th",
+      { scope: "col", class: "number" },
+      column.head,
+      column.unit ? el("span", { class: "unit" }, column.unit) : null,
+    ),
   );
   return el(
     "details",
@@ -105,11 +117,7 @@ export class SweepView {
       { class: "sweep-view", "aria-label": "Sweep" },
       el("div", { class: "chart-head" }, el("h2", {}, "Over the sweep"), this.#axis_choice(), legend(labels)),
       this.#charts,
-      el(
-        "p",
-        { class: "hint" },
-        "Bars are 95 % intervals. A click, or Enter, looks at a point below.",
-      ),
+      el("p", { class: "hint" }, "Bars are 95 % intervals. A click, or Enter, looks at a point below."),
       this.#values,
     );
     this.point_choice = this.#points;

@@ -48,8 +48,14 @@ test("axes end on round numbers and hold every value", () => {
 });
 
 test("steps are 1, 2 and 5", () => {
-  assert.deepEqual([1, 1.2, 3, 7, 0.0021, 10].map((value) => round_to_step(value)), [1, 2, 5, 10, 0.005, 10]);
-  assert.deepEqual([1, 1.9, 4.9, 99, 0.3].map((value) => round_to_step(value, true)), [1, 1, 2, 50, 0.2]);
+  assert.deepEqual(
+    [1, 1.2, 3, 7, 0.0021, 10].map((value) => round_to_step(value)),
+    [1, 2, 5, 10, 0.005, 10],
+  );
+  assert.deepEqual(
+    [1, 1.9, 4.9, 99, 0.3].map((value) => round_to_step(value, true)),
+    [1, 1, 2, 50, 0.2],
+  );
 });
 
 test("names on an axis have room, the last of them always", () => {
@@ -60,10 +66,15 @@ test("names on an axis have room, the last of them always", () => {
 });
 
 test("numbers on an axis are short", () => {
-  assert.deepEqual(
-    [0, 8192, 0.1 + 0.2, 0.0005, 1e6, -2, 2e-7].map(tick_text),
-    ["0", "8192", "0.3", "0.0005", "1e6", "−2", "2e−7"],
-  );
+  assert.deepEqual([0, 8192, 0.1 + 0.2, 0.0005, 1e6, -2, 2e-7].map(tick_text), [
+    "0",
+    "8192",
+    "0.3",
+    "0.0005",
+    "1e6",
+    "−2",
+    "2e−7",
+  ]);
 });
 
 const SPEC = {
@@ -87,9 +98,16 @@ test("points have readable names", () => {
 test("axes hold single values, or points of several fields", () => {
   const [count, shading] = axes_of(SPEC);
   assert.equal(count.name, "count");
-  assert.deepEqual(count.stops, [{ value: 64, text: "64" }, { value: 1, text: "1" }, { value: 16, text: "16" }]);
+  assert.deepEqual(count.stops, [
+    { value: 64, text: "64" },
+    { value: 1, text: "1" },
+    { value: 16, text: "16" },
+  ]);
   assert.equal(shading.name, "shading, texture size");
-  assert.deepEqual(shading.stops.map((stop) => stop.text), ["constant", "1-texture, 64"]);
+  assert.deepEqual(
+    shading.stops.map((stop) => stop.text),
+    ["constant", "1-texture, 64"],
+  );
   assert.deepEqual(axes_of({}), []);
 });
 
@@ -122,5 +140,8 @@ test("a line follows one axis at the values that the others have at the chosen p
     { label: "mine", points: [0, 1, 2].map((stop) => ({ stop, value: null, interval: null })) },
   ]);
   const across = runs_along(axes, runs, 1, runs[4]);
-  assert.deepEqual(series_along(across, "timing.median")[0].points.map((point) => point.value), [16, 160]);
+  assert.deepEqual(
+    series_along(across, "timing.median")[0].points.map((point) => point.value),
+    [16, 160],
+  );
 });

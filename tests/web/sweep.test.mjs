@@ -47,7 +47,8 @@ page_test("a sweep is written in the form, run and shown", {}, async (page) => {
 
   const point = page.getByLabel("count", { exact: true });
   assert.deepEqual(await point.locator("option").allTextContents(), ["count 4", "count 64"]);
-  const submitted = () => page.locator("table.fragments [data-path='fragments.submitted']").first().getAttribute("data-value");
+  const submitted = () =>
+    page.locator("table.fragments [data-path='fragments.submitted']").first().getAttribute("data-value");
   assert.equal(Number(await submitted()), report.runs[0].results[0].fragments.submitted);
   await point.selectOption({ label: "count 64" });
   assert.equal(Number(await submitted()), report.runs[1].results[0].fragments.submitted);
@@ -79,8 +80,13 @@ page_test("the chart draws the report's values where they belong", {}, async (pa
   const chart = page.locator("figure.chart", { has: page.getByLabel("Metric of the chart") });
   await chart.locator("path.marker").first().waitFor();
   const drawn = await chart.locator(".plot").evaluate((plot) => ({
-    marks: [...plot.querySelectorAll("path.marker")].map((mark) => /\(([\d.]+) ([\d.]+)\)/.exec(mark.getAttribute("transform")).slice(1).map(Number)),
-    ticks: [...plot.querySelectorAll("text[text-anchor=end]")].map((text) => [Number(text.textContent), Number(text.getAttribute("y"))]),
+    marks: [...plot.querySelectorAll("path.marker")].map((mark) =>
+      /\(([\d.]+) ([\d.]+)\)/.exec(mark.getAttribute("transform")).slice(1).map(Number),
+    ),
+    ticks: [...plot.querySelectorAll("text[text-anchor=end]")].map((text) => [
+      Number(text.textContent),
+      Number(text.getAttribute("y")),
+    ]),
   }));
   const [low, high] = [drawn.ticks[0], drawn.ticks.at(-1)];
   const counts = report.runs.map((run) => run.results[0].fragments.submitted);
@@ -89,7 +95,10 @@ page_test("the chart draws the report's values where they belong", {}, async (pa
   const share = (value) => (map(value) - map(low[0])) / (map(high[0]) - map(low[0]));
   counts.forEach((count, index) => {
     const expected = low[1] + share(count) * (high[1] - low[1]);
-    assert.ok(Math.abs(drawn.marks[index][1] - expected) < 0.01, `${count} at ${drawn.marks[index][1]}, not ${expected}`);
+    assert.ok(
+      Math.abs(drawn.marks[index][1] - expected) < 0.01,
+      `${count} at ${drawn.marks[index][1]}, not ${expected}`,
+    );
   });
   assert.ok(drawn.marks[0][0] < drawn.marks[1][0], "more quads lie further right");
 
@@ -110,7 +119,10 @@ page_test("the chart draws the report's values where they belong", {}, async (pa
 page_test("what is wrong in a sweep is said at its field", { expected_statuses: [422] }, async (page) => {
   await page.goto(`${tests.url()}/#/`);
   await page.getByRole("tab", { name: "Spec" }).click();
-  const sweep = [{ pointer: "/scene/nothing", values: [1] }, { pointer: "/scene/count", values: [4, -1] }];
+  const sweep = [
+    { pointer: "/scene/nothing", values: [1] },
+    { pointer: "/scene/count", values: [4, -1] },
+  ];
   await page.getByLabel("Spec as JSON").fill(JSON.stringify({ ...SPEC, sweep }));
   await page.getByRole("tab", { name: "Form" }).click();
   const said = (pointer) => page.locator(`${field(pointer)} > .error-text:not([hidden])`);
