@@ -24,6 +24,16 @@ test("methods, scenes and devices", async () => {
   assert.ok(devices.some((device) => device.renderer));
 });
 
+test("ready specs can be posted as they are", async () => {
+  const examples = await get_json("/specs/examples");
+  assert.ok(examples.some((example) => example.id === "quick"));
+  for (const { id, spec } of examples) {
+    const answer = await fetch(`${service.api}/specs/validate`, { method: "POST", body: JSON.stringify(spec),
+                                                                  headers: { "Content-Type": "application/json" } });
+    assert.equal(answer.status, 200, `${id}: ${await answer.text()}`);
+  }
+});
+
 test("the OpenAPI document describes what is there", async () => {
   const document = await get_json("/openapi.json");
   assert.equal(document.openapi, "3.1.0");
