@@ -9,6 +9,7 @@ const TOP = 10;
 const RIGHT = 16;
 const BOTTOM = 38;
 const LETTER = 6.4; // width of a letter of a tick, about
+const NAME_ROW = 12; // height of a name
 const GAP = 12; // between a target and what is said of it
 const FLAT = 0.25; // of the greatest value: a smaller spread is shown without 0
 const DODGE = 7; // between methods at one category
@@ -274,17 +275,17 @@ export function line_chart({ title, heading = title, unit, x, series, mark, show
   return new Plot({ heading, unit, label, paint, on_choose }).element;
 }
 
-/** Names of points above them: to the right, or to the left where there is no room, pushed apart up and down. */
+/** Names of points above them: to the right, or to the left where there is no room, pushed up over each other. */
 function name_nodes(points, right) {
   const rows = [];
   return [...points]
-    .sort((a, b) => a.y - b.y)
+    .sort((a, b) => b.y - a.y)
     .map((point) => {
       const width = point.label.length * LETTER + 10;
       const on_left = point.x + width > right + RIGHT;
       const [from, to] = on_left ? [point.x - width, point.x] : [point.x, point.x + width];
       let y = point.y - 9;
-      for (const row of rows) if (row.from < to && from < row.to && y - row.y < 12) y = row.y + 12;
+      for (const row of rows) if (row.from < to && from < row.to && row.y - y < NAME_ROW) y = row.y - NAME_ROW;
       rows.push({ from, to, y });
       return svg(
         "text",

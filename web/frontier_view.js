@@ -4,6 +4,12 @@ import { value_at } from "./columns.js";
 import { el } from "./dom.js";
 import { column_decimals, fixed, is_number } from "./format.js";
 
+/** `by`: for each dominated method the one that dominates it. */
+function dominated_text(by, better) {
+  const methods = [...by.keys()].filter((method) => by.get(method) === better);
+  return `Grey: ${methods.join(", ")}. ${better} is at least as fast and at least as near to the reference.`;
+}
+
 /** Null where the report has no frontier. */
 export function frontier_section(run) {
   const { frontier } = run;
@@ -58,13 +64,7 @@ export function frontier_section(run) {
         {},
         frontier.sentences.map((sentence) => el("li", {}, sentence)),
       ),
-      frontier.dominated.map(({ method, by: better }) =>
-        el(
-          "p",
-          { class: "muted" },
-          `${method} is grey: ${better} is at least as fast and at least as near to the reference.`,
-        ),
-      ),
+      [...new Set(by.values())].map((better) => el("p", { class: "muted" }, dominated_text(by, better))),
     ),
   );
 }

@@ -28,13 +28,14 @@ function metric_text(metric) {
   return [column.head, column.unit ? el("span", { class: "unit" }, column.unit) : null];
 }
 
-function figure_row(figure, place) {
+/** `place`: the cell of the point, null where another row's covers it; `is_first`: no point comes before the method. */
+function figure_row(figure, place, is_first) {
   const number = (text) => el("td", { class: "number" }, text);
   return el(
     "tr",
     {},
     place,
-    el("td", {}, figure.method),
+    is_first ? el("th", { scope: "row" }, figure.method) : el("td", {}, figure.method),
     el("td", {}, metric_text(figure.metric)),
     number(published_text(figure.published)),
     number(measured_text(figure.measured)),
@@ -47,7 +48,7 @@ function figures_table(figures, spec) {
   const with_place = figures.some((figure) => place_of(figure) !== "");
   const rows = figures.map((figure, index) => {
     const place = place_of(figure);
-    if (!with_place) return figure_row(figure, null);
+    if (!with_place) return figure_row(figure, null, true);
     if (index > 0 && place_of(figures[index - 1]) === place) return figure_row(figure, null);
     let span = 1;
     while (index + span < figures.length && place_of(figures[index + span]) === place) ++span;

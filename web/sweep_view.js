@@ -117,7 +117,11 @@ export class SweepView {
       { class: "sweep-view", "aria-label": "Sweep" },
       el("div", { class: "chart-head" }, el("h2", {}, "Over the sweep"), this.#axis_choice(), legend(labels)),
       this.#charts,
-      el("p", { class: "hint" }, "Bars are 95 % intervals. A click, or Enter, looks at a point below."),
+      el(
+        "p",
+        { class: "hint" },
+        "Bars are 95 % intervals, where there were rounds enough. A click, or Enter, looks at a point below.",
+      ),
       this.#values,
     );
     this.point_choice = this.#points;
