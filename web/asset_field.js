@@ -71,7 +71,8 @@ class AssetControl {
       ...built_in,
       uploaded.length > 0 ? { label: "Uploaded", choices: uploaded } : null,
     ].filter(Boolean);
-    this.#select.replaceChildren(...select({}, choices, this.#current).childNodes);
+    this.#select.replaceChildren(...select({}, choices).childNodes);
+    this.#select.value = this.#current; // a moved option does not keep what it was
   }
 
   #choose(value) {

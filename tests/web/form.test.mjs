@@ -135,7 +135,7 @@ page_test("a texture is uploaded from its field and used", { expected_statuses: 
   await fill_form(page, tests.url());
   const texture = page.locator(field("/scene/texture/image"));
   const choice = texture.locator("select");
-  assert.equal(await choice.inputValue(), "smoke");
+  assert.equal(await choice.inputValue(), "leaf");
   const status = texture.getByRole("status");
   const upload = (name, buffer) =>
     texture.locator("input[type=file]").setInputFiles({ name, mimeType: "image/png", buffer });
