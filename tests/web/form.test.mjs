@@ -142,7 +142,7 @@ page_test("a texture is uploaded from its field and used", { expected_statuses: 
 
   await upload("fake.jpg", plain_png(2, [1, 2, 3]));
   await status.getByText("is a PNG, not a JPEG").waitFor();
-  assert.equal(await choice.inputValue(), "smoke");
+  assert.equal(await choice.inputValue(), "leaf");
   await assert_accessible(page, "a form with a refused upload");
 
   await texture.locator("input[type=file]").setInputFiles({ name: "a.txt", mimeType: "text/plain", buffer: Buffer.from("a") });
