@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     sheer::cli::add_view(app, exit_code);
     sheer::cli::add_catalog(app, exit_code);
     sheer::cli::add_docs(app, exit_code);
+    sheer::cli::add_gallery(app, exit_code);
     sheer::cli::add_render(app, exit_code);
     sheer::cli::add_worker(app, exit_code);
     sheer::cli::add_check_asset(app, exit_code);

@@ -129,7 +129,27 @@ export class SpecForm {
       input,
       { for_id: id },
     );
+    frame.append(this.#scene_pictures(info));
+    frame.classList.add("wide");
     return this.#section("Scene", "/scene", frame, info ? fields_of(info.parameters, ["scene"], this.#model) : null);
+  }
+
+  /** A picture of each scene, to choose by. `chosen` may be missing. */
+  #scene_pictures(chosen) {
+    const button = (scene) =>
+      el(
+        "button",
+        {
+          type: "button",
+          class: "scene-picture",
+          title: scene.summary,
+          "aria-pressed": String(scene === chosen),
+          onclick: () => this.#choose_scene(scene.id),
+        },
+        el("img", { src: `/thumbnails/${scene.id}.png`, alt: "", width: 96, height: 96 }),
+        el("span", {}, scene.name),
+      );
+    return el("div", { class: "scene-pictures", role: "group", "aria-label": "Scenes" }, ...this.#scenes.map(button));
   }
 
   /** Parameters that the new scene has as well are kept. */

@@ -30,6 +30,12 @@ std::string encode_png(const Image8& image) {
     return encode("png", spec, OIIO::TypeDesc::UINT8, image.rgb.data());
 }
 
+std::string encode_jpeg(const Image8& image) {
+    OIIO::ImageSpec spec(image.width_px, image.height_px, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("CompressionQuality", 90);
+    return encode("jpeg", spec, OIIO::TypeDesc::UINT8, image.rgb.data());
+}
+
 std::string encode_exr(const Image& image) {
     OIIO::ImageSpec spec(image.width_px, image.height_px, 4, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");

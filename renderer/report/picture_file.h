@@ -7,6 +7,8 @@ namespace sheer {
 
 /// PNG of 8 bits per channel, RGB. Throws std::runtime_error with the encoder's message.
 std::string encode_png(const Image8& image);
+/// JPEG of 8 bits per channel, RGB, for pictures that are only looked at.
+std::string encode_jpeg(const Image8& image);
 /// OpenEXR of 32-bit floats, RGBA, ZIP-compressed: the values as the method left them.
 std::string encode_exr(const Image& image);
 

@@ -76,11 +76,11 @@ TEST(Compare, StopsTimingAfterItsTimeButNotBeforeOneRound) {
 
 TEST(Compare, TimesTheBaselineTwiceInEveryRoundAndSaysHowManyThereWere) {
     const auto context = make_context("egl");
-    const sheer::Run all = std::move(compare_here(small_spec(), *context, no_progress).runs[0]);
+    const sheer::Run all = compare_here(small_spec(), *context, no_progress).at(0);
     EXPECT_EQ(all.rounds_done, 3);
     EXPECT_EQ(all.baseline_again.size(), 3u);
     const auto short_time = small_spec({{"rounds", 1000}, {"max_seconds", 0.001}});
-    const sheer::Run cut = std::move(compare_here(short_time, *context, no_progress).runs[0]);
+    const sheer::Run cut = compare_here(short_time, *context, no_progress).at(0);
     EXPECT_EQ(cut.rounds_done, 1) << "any second round takes over a millisecond";
     EXPECT_EQ(cut.baseline_again.size(), 1u);
     EXPECT_EQ(cut.results[0].samples.size(), 1u);

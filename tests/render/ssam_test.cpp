@@ -1,6 +1,7 @@
 // Screen-space alpha masking against layers worked out by hand, one parameter after the other.
 #include <cmath>
 
+#include "renderer/scene/random.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test {
@@ -154,6 +155,27 @@ TEST_F(Ssam, SubmissionDoesNotMatter) {
 }
 
 /// The colour pass leaves its depths in the target; the next frame must start from the opaque ones.
+/// Planes that cut each other, in another order of submission: the same picture to the last bit.
+TEST_F(Ssam, FoliageDoesNotDependOnSubmission) {
+    const Spec spec =
+        make_spec({{"type", "foliage"}, {"trees", 2}, {"planes_per_tree", 40}, {"texture", {{"size", 64}}}},
+                  json::array({"ssam", "unsorted"}), 96);
+    NoAssets assets;
+    Geometry geometry = build_geometry(spec.scene, spec.image, assets);
+    std::array<Image, 2> in_order, shuffled;
+    const auto render = [&](std::array<Image, 2>& pictures) {
+        Stage stage(context(), spec, spec.image.format, geometry);
+        for (std::size_t i = 0; i < 2; ++i) pictures[i] = stage.picture(spec.methods[i]);
+    };
+    render(in_order);
+    Random random(5);
+    for (std::size_t i = geometry.primitives.size(); i > 1; --i)
+        std::swap(geometry.primitives[i - 1], geometry.primitives[random.below(i)]);
+    render(shuffled);
+    EXPECT_EQ(in_order[0].rgba, shuffled[0].rgba);
+    EXPECT_NE(in_order[1].rgba, shuffled[1].rgba) << "the order does matter to blending";
+}
+
 TEST_F(Ssam, FramesDoNotDependOnEachOther) {
     const Spec spec = make_spec({{"type", "layers"}, {"layers", two_layers()}},
                                 {ssam(), ssam({{"opaque_msaa", 2}, {"label", "2"}}), "b2f"}, 4);

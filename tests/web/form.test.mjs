@@ -20,7 +20,11 @@ page_test("the form has the parameters that the service describes", {}, async (p
     }
   }
   for (const scene of scenes) {
-    await page.locator(`${field("/scene/type")} select`).selectOption(scene.id);
+    const picture = page.getByRole("button", { name: scene.name, exact: true });
+    assert.ok(await picture.locator("img").evaluate((img) => img.decode().then(() => img.naturalWidth)), scene.id);
+    await picture.click();
+    assert.equal(await page.locator(`${field("/scene/type")} select`).inputValue(), scene.id);
+    assert.equal(await page.getByRole("button", { name: scene.name, exact: true }).getAttribute("aria-pressed"), "true");
     for (const param of scene.parameters)
       assert.equal(await page.locator(field(`/scene/${param.name}`)).count(), 1, `${scene.id} ${param.name}`);
   }
