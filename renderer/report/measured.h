@@ -9,8 +9,8 @@ namespace sheer {
 /// where it was not measured.
 nlohmann::json measured(const nlohmann::json& result, const std::string& metric);
 
-/// A number and how far it may be off: low and high are the number where a metric is exact, and infinite where it has an
-/// interval but too few samples for one.
+/// A number and how far it may be off: low and high are the number where a metric is exact, and infinite where it has
+/// an interval but too few samples for one.
 struct Measured {
     double value, low, high;
 };
