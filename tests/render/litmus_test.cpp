@@ -166,8 +166,8 @@ TEST_F(LitmusDetails, MeshkinIsOffByTheTermsOfTheSlides) {
     const Compositor::Stack stack = scene.truth().stack(x, 3);
     ASSERT_EQ(stack.fragments.size(), 4u);
     for (const double weight_of_d : {3.0, 6.0}) {
-        const auto pixel =
-            picture(scene, {{"id", "meshkin"}, {"variant", weight_of_d == 3 ? "simple" : "full"}}).pixel(x, 3);
+        const Image image = picture(scene, {{"id", "meshkin"}, {"variant", weight_of_d == 3 ? "simple" : "full"}});
+        const float* pixel = image.pixel(x, 3);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto& near_to_far = stack.fragments;
             const double truth = near_to_far[0].color[i];
@@ -200,7 +200,8 @@ TEST_F(LitmusDetails, StencilCapLosesLayersAndSettles) {
     const double transmittance = std::pow(15.0 / 16, 8);
     const Compositor::Color settled = {0.9, 0.2, 0.1};
     for (const int frames : {1, 2, 5, 30}) {
-        const auto pixel = picture(scene, {{"id", "stencil_cap"}, {"frames", frames}}).pixel(4, 9);
+        const Image image = picture(scene, {{"id", "stencil_cap"}, {"frames", frames}});
+        const float* pixel = image.pixel(4, 9);
         for (std::size_t i = 0; i < 3; ++i)
             EXPECT_NEAR(double{pixel[i]},
                         settled[i] + std::pow(transmittance, frames) * (scene.background[i] - settled[i]), 1e-5)
