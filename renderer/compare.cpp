@@ -42,6 +42,7 @@ class Comparer {
         make_methods(scene, target, run);
         time_methods(run);
         count_fragments(scene, target, run);
+        ask_methods();
         m_contenders.clear();
         measure(run);
         return run;
@@ -168,6 +169,16 @@ class Comparer {
             count_needed_by(contender.result->method, scene, target, run.overdraw, needed, fragments);
             m_context.check("counting the fragments of " + label);
         }
+    }
+
+    void ask_methods() {
+        for (const Contender& contender : m_contenders) {
+            if (!contender.result) continue;
+            m_timer.begin_frame(false);
+            contender.result->findings = contender.method->findings(m_timer);
+            m_timer.end_frame();
+        }
+        m_context.check("the methods' findings");
     }
 
     std::pair<std::optional<PixelCounts>, std::string> count_shaded(Method& method, Scene& scene,

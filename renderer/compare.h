@@ -36,6 +36,7 @@ struct MethodResult {
     std::string no_metrics_reason;
     std::int64_t memory_bytes = 0;  ///< GL objects the method made for itself
     FragmentCounts fragments;
+    nlohmann::json findings = nlohmann::json::object();  ///< see Method::findings
 };
 
 /// One point of the sweep.

@@ -80,6 +80,10 @@ void StencilCap::render(gl::FrameTimer& timer) {
     } while (m_frame < m_frames);
 }
 
+nlohmann::json StencilCap::findings(gl::FrameTimer& timer) {
+    return {{"change_per_frame", change_per_frame(timer)}};
+}
+
 std::vector<double> StencilCap::change_per_frame(gl::FrameTimer& timer) {
     std::vector<double> changes;
     Image before;

@@ -17,6 +17,8 @@ class StencilCap : public Method {
     /// previous frame, so that the picture is always that of frame `frames` and the time that of one frame.
     void render(gl::FrameTimer& timer) override;
     std::int64_t memory_bytes() const override;
+    /// {"change_per_frame": [...]}
+    nlohmann::json findings(gl::FrameTimer& timer) override;
 
     /// Starts anew and renders `frames` frames. Returns `frames` - 1 numbers: by how much red, green or blue of any
     /// pixel changed at most from one frame to the next.

@@ -30,6 +30,8 @@ class Method {
     virtual void render(gl::FrameTimer& timer) = 0;
     /// Textures and buffers that the method needs beside the target.
     virtual std::int64_t memory_bytes() const { return 0; }
+    /// What only this method has to report, an object; may render frames of its own, which are not timed.
+    virtual nlohmann::json findings(gl::FrameTimer&) { return nlohmann::json::object(); }
 };
 
 /// A method describes itself; the file renderer/methods/<id>.cpp ends with `MethodInfo method_<id>()`.

@@ -1,6 +1,7 @@
 // The cap, the guess from the previous frame and how it converges, against values worked out by hand.
 #include <cmath>
 
+#include "renderer/compare.h"
 #include "renderer/frame/stencil_cap.h"
 #include "renderer/scene/random.h"
 #include "tests/render/sample_count.h"
@@ -130,6 +131,22 @@ TEST_F(StencilCapTest, ConvergesAsComputed) {
     timer.end_frame();
     ASSERT_EQ(changes.size(), 5u);
     for (int i = 0; i < 5; ++i) EXPECT_NEAR(changes[i], 0.8 * 0.75 * std::pow(0.25, i + 1), 1e-6) << i;  // red: 1 - 0.2
+}
+
+TEST_F(StencilCapTest, TheRunHasTheChangePerFrame) {
+    const Spec spec = make_spec(half_white_layers(6), nlohmann::json::array({"b2f", cap(2, 4)}), size_px, "rgba32f");
+    NoAssets assets;
+    nlohmann::json of_b2f, of_cap;
+    compare(
+        spec, *m_context, assets, [](double, const std::string&) {},
+        [&](const sheer::Run& run) {
+            of_b2f = run.results[0].findings;
+            of_cap = run.results[1].findings;
+        });
+    EXPECT_EQ(of_b2f, nlohmann::json::object());
+    ASSERT_EQ(of_cap["change_per_frame"].size(), 3u);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(of_cap["change_per_frame"][i].get<double>(), 0.8 * 0.75 * std::pow(0.25, i + 1), 1e-6) << i;
 }
 
 /// Black at 0.5 before white up to column 3 and black from there: P(1) is 0.5 and 0. At half the size the columns are
