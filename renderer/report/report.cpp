@@ -52,7 +52,9 @@ class RunWriter {
   public:
     /// `prefix` comes before the names of the pictures.
     RunWriter(const Spec& spec, const Run& run, bool software, BlobSink& sink, const std::string& prefix)
-        : m_spec(spec), m_run(run), m_sink(sink), m_prefix(prefix), m_timings(run, spec.baseline, software) {}
+        : m_spec(spec), m_run(run), m_sink(sink), m_prefix(prefix), m_timings(run, spec.baseline, software) {
+        if (!run.overdraw.counts.empty()) m_overdraw = count_image(run.overdraw, "overdraw.png");
+    }
 
     json write() const {
         json reference = {{"method", m_run.reference.id},
@@ -100,10 +102,11 @@ class RunWriter {
                        {"speedup", m_timings.speedup(result)},
                        {"fragments", nullptr},
                        {"metrics", nullptr},
-                       {"memory_bytes", nullptr}};
+                       {"memory_bytes", nullptr},
+                       {"findings", result.findings}};
         if (result.status != "ok") return object;
         object["images"] = pictures(result.image, name, m_run.image.format != PixelFormat::rgba8);
-        object["images"].update(count_pictures(result, name));
+        object["images"].update(count_images(result, name));
         object["timing"] = m_timings.timing(result.samples);
         object["fragments"] = fragments(result);
         object["memory_bytes"] = result.memory_bytes;
@@ -166,18 +169,21 @@ class RunWriter {
         return scale;
     }
 
-    json count_pictures(const MethodResult& result, const std::string& name) const {
+    json count_image(const PixelCounts& counts, const std::string& name) const {
         const std::uint32_t scale = count_scale();
+        json image = put(encode_png(count_picture(counts, scale)), name, "image/png");
+        image["greatest"] = counts.greatest();
+        image["full_scale"] = scale;
+        return image;
+    }
+
+    json count_images(const MethodResult& result, const std::string& name) const {
         json images = json::object();
-        const auto add = [&](const std::string& key, const PixelCounts& counts) {
-            images[key] = put(encode_png(count_picture(counts, scale)), fmt::format("{}.{}.png", file_name(name), key),
-                              "image/png");
-            images[key]["greatest"] = counts.greatest();
-            images[key]["full_scale"] = scale;
-        };
-        if (!m_run.overdraw.counts.empty()) add("overdraw", m_run.overdraw);
-        if (result.fragments.shaded) add("shaded", *result.fragments.shaded);
-        if (result.fragments.saturation) add("saturation", *result.fragments.saturation);
+        if (!m_overdraw.is_null()) images["overdraw"] = m_overdraw;
+        if (result.fragments.shaded)
+            images["shaded"] = count_image(*result.fragments.shaded, file_name(name) + ".shaded.png");
+        if (result.fragments.saturation)
+            images["saturation"] = count_image(*result.fragments.saturation, file_name(name) + ".saturation.png");
         return images;
     }
 
@@ -186,6 +192,7 @@ class RunWriter {
     BlobSink& m_sink;
     const std::string m_prefix;
     const Timings m_timings;
+    json m_overdraw;  ///< the same for every method; null where it was not counted
 };
 
 bool passes(const CheckSpec& check, const json& result, const json& value) {

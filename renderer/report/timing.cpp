@@ -1,6 +1,7 @@
 #include "renderer/report/timing.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "renderer/report/statistics.h"
 
@@ -27,32 +28,31 @@ bool use_gpu_clock(const Run& run, bool software) {
            std::ranges::all_of(run.results, [](const MethodResult& result) { return gpu_clock_holds(result.samples); });
 }
 
-double phase_median(const Samples& samples, gl::Phase phase) {
+/// The median over the frames of the time in ms that the passes took which `counts`; those of one name, such as the
+/// tiles of a reference, are added up.
+double median_of_passes(const Samples& samples, const std::function<bool(const gl::PassSample&)>& counts) {
     std::vector<double> sums;
     for (const gl::FrameSample& sample : samples) {
         double sum = 0;
         for (const gl::PassSample& pass : sample.passes)
-            if (pass.phase == phase) sum += pass.gpu_ms;
+            if (counts(pass)) sum += pass.gpu_ms;
         sums.push_back(sum);
     }
     return median(sums);
 }
 
-/// Times of passes that bear the same name, such as the tiles of a reference, are added up.
+double phase_median(const Samples& samples, gl::Phase phase) {
+    return median_of_passes(samples, [=](const gl::PassSample& pass) { return pass.phase == phase; });
+}
+
 json passes(const Samples& samples) {
     json all = json::array();
     std::vector<std::string> names;
     for (const gl::PassSample& pass : samples.front().passes)
         if (std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
     for (const std::string& name : names) {
-        std::vector<double> sums;
-        for (const gl::FrameSample& sample : samples) {
-            double sum = 0;
-            for (const gl::PassSample& pass : sample.passes)
-                if (pass.name == name) sum += pass.gpu_ms;
-            sums.push_back(sum);
-        }
-        all.push_back({{"name", name}, {"median", median(sums)}});
+        const auto of_name = [&](const gl::PassSample& pass) { return pass.name == name; };
+        all.push_back({{"name", name}, {"median", median_of_passes(samples, of_name)}});
     }
     return all;
 }
