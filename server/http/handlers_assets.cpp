@@ -132,8 +132,6 @@ Route post_route(Service& service) {
         .id = "createAsset",
         .summary = "Upload a file that specs can refer to by its SHA-256",
         .query = {Param::text("name", "what you call it; the list shows it", "", max_name_bytes)},
-        .headers = {},
-        .body_schema = "",
         .replies = {{201, "It is kept; Location says where", "application/json", "Asset"},
                     {200, "It was here already", "application/json", "Asset"},
                     {409, "The same bytes are here already under another type", "application/problem+json", "Problem"},
@@ -152,9 +150,6 @@ Route one_route(std::string method, std::string id, std::string summary, std::ve
             .pattern = std::string(assets_path) + "/{sha256}",
             .id = std::move(id),
             .summary = std::move(summary),
-            .query = {},
-            .headers = {},
-            .body_schema = "",
             .replies = std::move(replies),
             .handle = std::move(handle)};
 }
@@ -168,8 +163,6 @@ std::vector<Route> asset_routes(Service& service) {
              .id = "listAssets",
              .summary = "The uploaded files, newest first, and what is accepted",
              .query = {Param::integer("limit", "how many at most", "", 100, 1, 1000)},
-             .headers = {},
-             .body_schema = "",
              .replies = {{200, "The list", "application/json", "AssetList"}},
              .handle = [&service](const Request& request) { return list_assets(service, request); }},
             one_route("GET", "getAsset", "The bytes of an uploaded file", {{200, "The file", "*/*", ""}},

@@ -20,9 +20,6 @@ Route catalog_route(std::string path, std::string id, std::string summary, Handl
             .pattern = std::move(path),
             .id = std::move(id),
             .summary = std::move(summary),
-            .query = {},
-            .headers = {},
-            .body_schema = "",
             .replies = {{200, "The list", "application/json", "Catalog"}},
             .handle = std::move(handle)};
 }

@@ -18,9 +18,6 @@ Route health_route(std::string path, std::string id, std::string summary, std::v
             .pattern = std::move(path),
             .id = std::move(id),
             .summary = std::move(summary),
-            .query = {},
-            .headers = {},
-            .body_schema = "",
             .replies = std::move(replies),
             .handle = std::move(handle)};
 }

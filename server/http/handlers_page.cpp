@@ -40,9 +40,6 @@ Route file_route(std::string pattern, const EmbeddedFile& file) {
             .pattern = std::move(pattern),
             .id = "",
             .summary = "",
-            .query = {},
-            .headers = {},
-            .body_schema = "",
             .replies = {},
             .handle = [response](const Request&) { return response; }};
 }

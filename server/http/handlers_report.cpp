@@ -100,9 +100,6 @@ Route route(std::string method, const std::string& suffix, std::string id, std::
             .pattern = std::string(reports_path) + "/{id}" + suffix,
             .id = std::move(id),
             .summary = std::move(summary),
-            .query = {},
-            .headers = {},
-            .body_schema = "",
             .replies = std::move(replies),
             .handle = std::move(handle)};
 }

@@ -199,9 +199,6 @@ Router make_router(Service& service) {
                   .pattern = "/api/v1/openapi.json",
                   .id = "getOpenapi",
                   .summary = "This document",
-                  .query = {},
-                  .headers = {},
-                  .body_schema = "",
                   .replies = {{200, "The document", "application/json", ""}},
                   .handle = {}};
     std::vector<Route> documented = router.routes();
