@@ -142,7 +142,8 @@ std::string report_html(const json& report, const std::function<std::string(cons
     return fmt::format(fmt::runtime(page), fmt::arg("nonce", sha256_hex(data).substr(0, 32)),
                        fmt::arg("title", html_text(title.empty() ? "Report" : title)),
                        fmt::arg("icon", data_uri("image/svg+xml", web_file("icon.svg"))),
-                       fmt::arg("styles", web_file("base.css") + web_file("report.css") + web_file("chart.css")),
+                       fmt::arg("styles", web_file("base.css") + web_file("viewer.css") + web_file("report.css") +
+                                              web_file("chart.css")),
                        fmt::arg("theme", web_file("theme.js")),
                        fmt::arg("import_map", script_json({{"imports", modules}})), fmt::arg("data", data),
                        fmt::arg("entry", entry_module));
