@@ -2,13 +2,13 @@
 // block that the browser does not run. Texts from users appear in that block and in <title> only.
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <map>
 #include <regex>
 #include <stdexcept>
 
 #include "embedded_web.h"
+#include "renderer/report/data_uri.h"
 #include "renderer/report/report.h"
 
 namespace sheer {
@@ -18,19 +18,6 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* entry_module = "standalone.js";
-
-std::string base64(std::string_view bytes) {
-    std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // EVP_EncodeBlock ends with a zero byte
-    const int length =
-        EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                        reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-    text.resize(static_cast<std::size_t>(length));
-    return text;
-}
-
-std::string data_uri(const std::string& media_type, std::string_view bytes) {
-    return "data:" + media_type + ";base64," + base64(bytes);
-}
 
 std::string web_file(std::string_view path) {
     for (const EmbeddedFile& file : embedded_web())

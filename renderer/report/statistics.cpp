@@ -72,21 +72,35 @@ NoiseFloor noise_floor(const std::vector<double>& ratios) {
     return noise;
 }
 
-Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise) {
-    Speedup speedup;
-    speedup.value = median(ratios);
-    speedup.ci95 = median_interval(ratios, error_rate / static_cast<double>(compared));
-    const double factor = noise ? noise->factor : 1;
-    if (!speedup.ci95) {
+const char* verdict_name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::faster:
+            return "faster";
+        case Verdict::slower:
+            return "slower";
+        case Verdict::not_resolved:
+            break;
+    }
+    return "not resolved";
+}
+
+Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>& interval, double noise_factor) {
+    Speedup speedup{value, interval, Verdict::not_resolved, ""};
+    if (!interval) {
         speedup.reason = "too few rounds for an interval";
-    } else if (speedup.ci95->first <= 1 && speedup.ci95->second >= 1) {
+    } else if (interval->first <= 1 && interval->second >= 1) {
         speedup.reason = "the interval holds 1";
-    } else if (speedup.value <= factor && speedup.value >= 1 / factor) {
+    } else if (value <= noise_factor && value >= 1 / noise_factor) {
         speedup.reason = "inside the noise floor";
     } else {
-        speedup.verdict = speedup.value > 1 ? Verdict::faster : Verdict::slower;
+        speedup.verdict = value > 1 ? Verdict::faster : Verdict::slower;
     }
     return speedup;
+}
+
+Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise) {
+    return judge_ratio(median(ratios), median_interval(ratios, error_rate / static_cast<double>(compared)),
+                       noise ? noise->factor : 1);
 }
 
 Summary summarize(std::vector<double> samples) {

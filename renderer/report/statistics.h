@@ -61,8 +61,13 @@ struct Speedup {
     std::string reason;  ///< why not resolved
 };
 
-/// `ratios` must not be empty; `compared` is how many methods, from 1, are held against the baseline. Resolved is what
-/// lies to one side of 1 with its whole interval and farther from 1 than the noise floor, if there is one.
+/// "faster", "slower" or "not resolved".
+const char* verdict_name(Verdict verdict);
+
+/// Resolved is what lies to one side of 1 with its whole interval, and outside 1 / `noise_factor` to `noise_factor`.
+Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>& interval, double noise_factor);
+
+/// `ratios` must not be empty; `compared` is how many methods, from 1, are held against the baseline.
 Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise);
 
 }  // namespace sheer

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/report/report.h"
+#include "renderer/report/text_table.h"
 #include "renderer/spec/sweep.h"
 
 namespace sheer {
@@ -12,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-using Row = std::vector<std::string>;
+using Row = TableRow;
 
 /// The number at `path` below `value`, or a dash where there is none.
 std::string number(const json& value, const char* path, const char* format) {
@@ -64,24 +65,6 @@ Row fragment_row(const json& result) {
     return {result["label"], number(result, "/fragments/submitted", "{:.0f}"),
             number(result, "/fragments/shaded", "{:.0f}"), number(result, "/fragments/needed", "{:.0f}"),
             number(result, "/fragments/efficiency", "{:.2f}")};
-}
-
-/// Text to the left, numbers to the right; a short row is a message after its label.
-std::string aligned(const std::vector<Row>& rows) {
-    std::vector<std::size_t> widths(rows.front().size());
-    for (const Row& cells : rows) {
-        if (cells.size() < widths.size()) widths[0] = std::max(widths[0], cells[0].size());
-        for (std::size_t i = 0; cells.size() == widths.size() && i < cells.size(); ++i)
-            widths[i] = std::max(widths[i], cells[i].size());
-    }
-    std::string text;
-    for (const Row& cells : rows) {
-        std::string line = fmt::format("{:<{}}", cells[0], widths[0]);
-        for (std::size_t i = 1; i < cells.size(); ++i)
-            line += fmt::format("  {:>{}}", cells[i], cells.size() == widths.size() ? widths[i] : 0);
-        text += line + "\n";
-    }
-    return text;
 }
 
 std::string fragment_table(const json& run) {

@@ -57,18 +57,6 @@ json passes(const Samples& samples) {
     return all;
 }
 
-const char* verdict_name(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::faster:
-            return "faster";
-        case Verdict::slower:
-            return "slower";
-        case Verdict::not_resolved:
-            break;
-    }
-    return "not resolved";
-}
-
 /// How many methods are held against the baseline.
 std::size_t compared_in(const Run& run) {
     const auto ran = std::ranges::count(run.results, "ok", &MethodResult::status);

@@ -9,6 +9,7 @@
 #include "server/archive/blob_store.h"
 #include "server/http/problem.h"
 #include "server/http/service.h"
+#include "server/http/slot.h"
 #include "server/http/text.h"
 
 namespace sheer::http {
@@ -18,24 +19,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* assets_path = "/api/v1/assets";
-constexpr const char* retry_check_s = "1";
 constexpr std::size_t max_name_bytes = 200;
-
-/// One of the few uploads that are read at a time: each takes a processor and a thread that makes answers.
-class CheckSlot {
-  public:
-    CheckSlot(std::atomic<int>& taken, int slots) : m_taken(taken) {
-        if (++m_taken <= slots) return;
-        --m_taken;
-        throw Problem(429, "Other uploads are being read; come again.").with("Retry-After", retry_check_s);
-    }
-    CheckSlot(const CheckSlot&) = delete;
-    CheckSlot& operator=(const CheckSlot&) = delete;
-    ~CheckSlot() { --m_taken; }
-
-  private:
-    std::atomic<int>& m_taken;
-};
 
 json asset_json(const Asset& asset) {
     json body = asset.facts;
@@ -72,7 +56,7 @@ Answer post_asset(Service& service, std::atomic<int>& checks, const Request& req
     if (const auto known = service.store.find_asset(asset.sha256)) return known_asset(*known, media_type);
     UploadVerdict verdict;
     {
-        const CheckSlot slot(checks, service.max_checks);
+        const Slot slot(checks, service.max_checks, "Other uploads are being read; come again.");
         verdict = service.check_upload(request.body, media_type);
     }
     if (!verdict.refusal.empty())
