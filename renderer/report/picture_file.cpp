@@ -22,6 +22,20 @@ std::string encode(const std::string& format, const OIIO::ImageSpec& spec, const
     return {bytes.begin(), bytes.end()};
 }
 
+Image8 read_rgb(OIIO::ImageInput& input, const std::string& name) {
+    const OIIO::ImageSpec& spec = input.spec();
+    Image8 image(spec.width, spec.height);
+    if (spec.nchannels < 3 || !input.read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, image.rgb.data()))
+        throw std::runtime_error("cannot read " + name + " as RGB: " + input.geterror());
+    return image;
+}
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+}
+
 }  // namespace
 
 std::string encode_png(const Image8& image) {
@@ -45,11 +59,22 @@ std::string encode_exr(const Image& image) {
 Image8 read_png(const std::string& path) {
     const auto input = OIIO::ImageInput::open(path);
     if (!input) throw std::runtime_error("cannot read " + path + ": " + OIIO::geterror());
-    const OIIO::ImageSpec& spec = input->spec();
-    Image8 image(spec.width, spec.height);
-    if (spec.nchannels < 3 || !input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, image.rgb.data()))
-        throw std::runtime_error("cannot read " + path + " as RGB: " + input->geterror());
-    return image;
+    return read_rgb(*input, path);
+}
+
+Image8 decode_png(const std::string& bytes, int width_px, int height_px) {
+    const std::string signature("\x89PNG\r\n\x1a\n");
+    constexpr std::size_t width_at = 16, height_at = 20, header_bytes = 24;
+    if (bytes.size() < header_bytes || !bytes.starts_with(signature)) throw std::runtime_error("a picture is no PNG");
+    if (big_endian(bytes, width_at) != static_cast<std::uint32_t>(width_px) ||
+        big_endian(bytes, height_at) != static_cast<std::uint32_t>(height_px))
+        throw std::runtime_error("a picture has another size than its report says");
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const auto input = OIIO::ImageInput::create("png");
+    OIIO::ImageSpec spec;
+    if (!input || !input->set_ioproxy(&memory) || !input->open("picture.png", spec))
+        throw std::runtime_error("cannot read a picture: " + (input ? input->geterror() : OIIO::geterror()));
+    return read_rgb(*input, "a picture");
 }
 
 }  // namespace sheer

@@ -15,4 +15,8 @@ std::string encode_exr(const Image& image);
 /// Reads a PNG file that Sheer or a test wrote; not for files from outside. Throws std::runtime_error naming the file.
 Image8 read_png(const std::string& path);
 
+/// The same from bytes. Refuses, before anything is decoded, what is no PNG or has another size than the one expected:
+/// decoders believe the size that a header declares.
+Image8 decode_png(const std::string& bytes, int width_px, int height_px);
+
 }  // namespace sheer

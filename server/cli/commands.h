@@ -12,7 +12,8 @@ inline constexpr int exit_no_server = 4;
 
 /// Each adds its subcommand to `app`; when it is chosen it runs and stores the exit code.
 void add_compare(CLI::App& app, int& exit_code);
-void add_catalog(CLI::App& app, int& exit_code);      ///< methods, scenes, devices
+void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, devices
+void add_diff(CLI::App& app, int& exit_code);
 void add_docs(CLI::App& app, int& exit_code);         ///< for ./dev docs; not shown in the help
 void add_gallery(CLI::App& app, int& exit_code);      ///< hidden: see ./dev gallery
 void add_render(CLI::App& app, int& exit_code);       ///< the worker's child; not shown in the help

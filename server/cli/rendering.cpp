@@ -43,12 +43,12 @@ int guarded(const std::function<int()>& action) {
     }
 }
 
-ReportFolder::ReportFolder(std::filesystem::path folder) : m_folder(std::move(folder)) {
+ReportFolder::ReportFolder(std::filesystem::path folder, const std::string& main_file) : m_folder(std::move(folder)) {
     if (!m_folder.has_filename()) m_folder = m_folder.parent_path();
     const bool exists = std::filesystem::exists(m_folder);
     if (exists && !std::filesystem::is_directory(m_folder)) throw UsageError(m_folder.string() + " is not a folder");
-    if (exists && !std::filesystem::is_empty(m_folder) && !std::filesystem::exists(m_folder / "report.json"))
-        throw UsageError(m_folder.string() + " holds something that is not a report; choose another folder");
+    if (exists && !std::filesystem::is_empty(m_folder) && !std::filesystem::exists(m_folder / main_file))
+        throw UsageError(fmt::format("{} holds files but no {}; choose another folder", m_folder.string(), main_file));
     m_partial = m_folder;
     m_partial += fmt::format(".partial-{}", getpid());
     std::filesystem::create_directories(m_partial);

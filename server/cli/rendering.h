@@ -25,10 +25,11 @@ class UsageError : public std::runtime_error {
 int guarded(const std::function<int()>& action);
 
 /// Writes a report whole: `fill` gets a temporary folder beside `folder`, which then takes the place of `folder`.
-/// Throws UsageError, before anything is done, if `folder` holds something that is not a report.
+/// Throws UsageError, before anything is done, if `folder` holds something else.
 class ReportFolder {
   public:
-    explicit ReportFolder(std::filesystem::path folder);
+    /// `main_file` is what such a folder holds in any case, by which it is known.
+    explicit ReportFolder(std::filesystem::path folder, const std::string& main_file = "report.json");
     ~ReportFolder();
     ReportFolder(const ReportFolder&) = delete;
     ReportFolder& operator=(const ReportFolder&) = delete;

@@ -1,0 +1,314 @@
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "renderer/errors.h"
+#include "renderer/report/diff.h"
+#include "renderer/report/picture_file.h"
+
+namespace sheer {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Keeps what it is given.
+class MapSink : public BlobSink {
+  public:
+    std::map<std::string, std::string> bytes_by_name;
+    std::string put(const std::string&, const std::string& bytes, const std::string& name,
+                    const std::string&) override {
+        bytes_by_name[name] = bytes;
+        return "there/" + name;
+    }
+};
+
+/// Two reports of 4 x 2 black pixels, with the methods b2f (the baseline), f2b and f2bd.
+class ReportDiff : public testing::Test {
+  protected:
+    ReportDiff() {
+        a = make();
+        b = make();
+    }
+
+    json image(const Image8& picture) {
+        const std::string png = encode_png(picture), sha256 = sha256_hex(png);
+        m_files[sha256] = png;
+        return {{"sha256", sha256}, {"url", sha256}, {"media_type", "image/png"}};
+    }
+
+    /// Six rounds of `base_ms`, a hundredth more each round.
+    static json timing(double base_ms) {
+        json samples = json::array();
+        for (int round = 0; round < 6; ++round) samples.push_back(base_ms * (1 + 0.01 * round));
+        return {{"clock", "wall"}, {"samples", samples}, {"gpu_samples", samples}, {"wall_samples", samples}};
+    }
+
+    json make() {
+        const json picture = image(Image8(4, 2));
+        json results = json::array(), methods = json::array();
+        for (const char* id : {"b2f", "f2b", "f2bd"}) {
+            methods.push_back({{"id", id}, {"label", id}});
+            results.push_back({{"method", id},
+                               {"label", id},
+                               {"status", "ok"},
+                               {"reason", nullptr},
+                               {"images", {{"color", picture}}},
+                               {"timing", timing(10)}});
+        }
+        return {{"status", "done"},
+                {"created_at", "2026-01-01T00:00:00.000Z"},
+                {"spec",
+                 {{"title", "t"},
+                  {"image", {{"width", 4}, {"height", 2}}},
+                  {"scene", {{"type", "quads"}, {"count", 3}}},
+                  {"methods", methods},
+                  {"baseline", "b2f"},
+                  {"timing", {{"rounds", 6}}}}},
+                {"device", {{"renderer", "r"}, {"cpu", "c"}}},
+                {"provenance", {{"version", "1"}, {"commit", "abc"}}},
+                {"runs",
+                 {{{"point", json::object()},
+                   {"noise_floor", {{"factor", 1.02}}},
+                   {"reference", {{"method", "exact"}, {"images", {{"color", picture}}}}},
+                   {"results", results}}}}};
+    }
+
+    json& result(json& report, std::size_t index) { return report["runs"][0]["results"][index]; }
+
+    json diff(const DiffOptions& options = {}) {
+        const auto read = [this](const json& picture) { return m_files.at(picture["url"]); };
+        return diff_reports({a, read}, {b, read}, options);
+    }
+
+    json of(std::size_t index, const char* part) { return diff()["runs"][0]["results"][index][part]; }
+
+    std::vector<std::string> conflicts() {
+        std::vector<std::string> pointers;
+        try {
+            diff();
+        } catch (const SpecError& wrong) {
+            for (const FieldError& error : wrong.errors()) pointers.push_back(error.pointer);
+        }
+        return pointers;
+    }
+
+    json a, b;
+    std::map<std::string, std::string> m_files;
+};
+
+TEST_F(ReportDiff, OfTheSameReportIsNothing) {
+    const json same = diff();
+    EXPECT_EQ(same["differences"], json::array());
+    EXPECT_EQ(same["summary"]["pictures"], json({{"identical", 4}, {"different", 0}, {"not examined", 0}}));
+    EXPECT_EQ(same["summary"]["times"], json({{"faster", 0}, {"slower", 0}, {"not resolved", 3}}));
+    EXPECT_FALSE(is_worse(same));
+}
+
+TEST_F(ReportDiff, PicturesAreHeldAgainstEachOther) {
+    Image8 changed(4, 2);
+    changed.pixel(2, 1)[1] = 51;
+    changed.pixel(1, 0)[0] = 3;
+    result(b, 1)["images"]["color"] = image(changed);
+    MapSink sink;
+    const json whole = diff({.pictures = &sink});
+    const json picture = whole["runs"][0]["results"][1]["picture"];
+    EXPECT_EQ(picture["verdict"], "different");
+    EXPECT_EQ(picture["differing_pixels"], 2);
+    EXPECT_EQ(picture["greatest_levels"], 51);
+    EXPECT_EQ(picture["worst_pixel"], json({2, 1}));
+    EXPECT_GT(picture["flip"]["max"], picture["flip"]["mean"]);
+    EXPECT_GT(picture["flip"]["mean"], 0);
+    EXPECT_EQ(picture["flip_picture"]["url"], "there/001-2.flip.png");
+    const Image8 map = decode_png(sink.bytes_by_name.at("001-2.flip.png"), 4, 2);
+    EXPECT_NE(map.rgb, Image8(4, 2).rgb);
+    EXPECT_EQ(sink.bytes_by_name.size(), 1u) << "identical pictures have no map";
+    EXPECT_EQ(whole["runs"][0]["results"][0]["picture"]["verdict"], "identical");
+    EXPECT_TRUE(is_worse(whole));
+    EXPECT_THAT(diff_table(whole), HasSubstr("different"));
+}
+
+TEST_F(ReportDiff, OtherBytesOfTheSamePixelsAreIdentical) {
+    // An ancillary chunk before the end: a comment of no letters, CRC of "tEXt" and a zero.
+    json& picture = result(b, 1)["images"]["color"];
+    std::string png = m_files.at(picture["url"]);
+    constexpr std::size_t end_chunk_bytes = 12;
+    const std::string comment("\0\0\0\2tEXta\0", 10);
+    std::uint32_t crc = 0xffffffffu;
+    for (std::size_t i = 4; i < comment.size(); ++i) {
+        crc ^= static_cast<unsigned char>(comment[i]);
+        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+    }
+    crc = ~crc;
+    std::string chunk = comment;
+    for (int shift = 24; shift >= 0; shift -= 8) chunk += static_cast<char>(crc >> shift & 0xff);
+    png.insert(png.size() - end_chunk_bytes, chunk);
+    const std::string sha256 = sha256_hex(png);
+    m_files[sha256] = png;
+    picture["sha256"] = picture["url"] = sha256;
+    EXPECT_EQ(of(1, "picture")["verdict"], "identical");
+    EXPECT_EQ(of(1, "picture")["differing_pixels"], 0);
+}
+
+TEST_F(ReportDiff, AMethodIsSlowerWhereItsTimeAndItsRatioSaySo) {
+    result(b, 1)["timing"] = timing(13);
+    const json time = of(1, "time");
+    EXPECT_NEAR(time["absolute"]["value"].get<double>(), 1 / 1.3, 0.01);
+    EXPECT_EQ(time["absolute"]["verdict"], "slower");
+    EXPECT_NEAR(time["relative"]["value"].get<double>(), 1 / 1.3, 1e-9);
+    EXPECT_EQ(time["verdict"], "slower");
+    EXPECT_EQ(of(2, "time")["verdict"], "not resolved");
+    EXPECT_TRUE(is_worse(diff()));
+    std::swap(a, b);
+    EXPECT_EQ(of(1, "time")["verdict"], "faster");
+    EXPECT_FALSE(is_worse(diff())) << "faster is not worse";
+}
+
+TEST_F(ReportDiff, ASlowerMachineIsNoSlowerMethod) {
+    for (std::size_t i = 0; i < 3; ++i) result(b, i)["timing"] = timing(15);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(of(i, "time")["absolute"]["verdict"], "slower");
+        EXPECT_EQ(of(i, "time")["verdict"], "not resolved");
+        EXPECT_FALSE(of(i, "time")["reason"].is_null());
+    }
+    EXPECT_FALSE(is_worse(diff()));
+    // Between devices there is only the time.
+    b["device"]["cpu"] = "another";
+    EXPECT_EQ(of(0, "time")["verdict"], "slower");
+    EXPECT_EQ(diff()["same_device"], false);
+}
+
+TEST_F(ReportDiff, AFasterBaselineMakesNoOtherMethodSlower) {
+    result(b, 0)["timing"] = timing(5);
+    const json time = of(1, "time");
+    EXPECT_EQ(time["relative"]["verdict"], "slower");
+    EXPECT_EQ(time["verdict"], "not resolved");
+    EXPECT_TRUE(of(0, "time")["relative"].is_null());
+    EXPECT_THAT(of(0, "time")["relative_reason"].get<std::string>(), HasSubstr("baseline"));
+}
+
+TEST_F(ReportDiff, TheNoiseOfBothReportsCounts) {
+    result(b, 1)["timing"] = timing(13);
+    a["runs"][0]["noise_floor"]["factor"] = b["runs"][0]["noise_floor"]["factor"] = 1.15;
+    EXPECT_EQ(of(1, "time")["reason"], "inside the noise floor") << "1.15 times 1.15 is over 1.3";
+    b["runs"][0]["noise_floor"]["factor"] = nullptr;
+    EXPECT_EQ(of(2, "time")["verdict"], "not resolved") << "null is infinite";
+}
+
+TEST_F(ReportDiff, ClocksThatDifferLeaveTheWallClock) {
+    json& timing_b = result(b, 1)["timing"];
+    timing_b["clock"] = "gpu";
+    for (json& sample : timing_b["samples"]) sample = sample.get<double>() / 2;
+    EXPECT_EQ(of(1, "time")["clock"], "wall");
+    EXPECT_EQ(of(1, "time")["absolute"]["value"], 1.0);
+}
+
+TEST_F(ReportDiff, WhatTookNoTimeIsNotResolved) {
+    for (json& sample : result(b, 1)["timing"]["samples"]) sample = 0;
+    EXPECT_TRUE(of(1, "time")["absolute"].is_null());
+    EXPECT_EQ(of(1, "time")["verdict"], "not resolved");
+    EXPECT_NO_THROW(diff_table(diff()));
+}
+
+TEST_F(ReportDiff, AMethodThatNoLongerRunsIsWorse) {
+    result(b, 2)["status"] = "failed";
+    result(b, 2)["reason"] = "no <memory>";
+    EXPECT_TRUE(of(2, "picture").is_null());
+    EXPECT_EQ(of(2, "reason")["b"], "no <memory>");
+    EXPECT_EQ(diff()["summary"]["statuses_changed"], 1);
+    EXPECT_EQ(diff()["runs"][0]["compared"], 2);
+    EXPECT_TRUE(is_worse(diff()));
+    EXPECT_THAT(diff_table(diff()), HasSubstr("ok in A, failed in B"));
+}
+
+TEST_F(ReportDiff, DifferencesThatLeaveThePicturesAloneAreListed) {
+    b["spec"]["timing"]["rounds"] = 20;
+    b["spec"]["scene"]["newer"] = 1;
+    b["provenance"]["commit"] = "def";
+    std::vector<std::string> pointers;
+    const json differences = diff()["differences"];
+    for (const json& one : differences) pointers.push_back(one["pointer"]);
+    EXPECT_THAT(pointers, ElementsAre("/spec/scene/newer", "/spec/timing/rounds", "/provenance/commit"));
+    EXPECT_EQ(differences[0], json({{"pointer", "/spec/scene/newer"}, {"a", nullptr}, {"b", 1}}));
+    EXPECT_EQ(diff()["b"]["commit"], "def");
+}
+
+TEST_F(ReportDiff, MethodsOfOnlyOneAreListed) {
+    b["spec"]["methods"].erase(1);
+    b["runs"][0]["results"].erase(1);
+    const json less = diff();
+    EXPECT_EQ(less["only_in"]["a"]["methods"], json({"f2b"}));
+    EXPECT_EQ(less["only_in"]["b"]["methods"], json::array());
+    EXPECT_EQ(less["runs"][0]["results"].size(), 2u);
+    EXPECT_FALSE(is_worse(less));
+}
+
+TEST_F(ReportDiff, SpecsOfOtherPicturesAreRefusedByPointer) {
+    b["spec"]["image"]["width"] = 8;
+    b["spec"]["scene"]["count"] = 4;
+    b["spec"]["methods"][2]["id"] = "f2bx";
+    EXPECT_THAT(conflicts(), ElementsAre("/spec/methods/2/id", "/spec/image/width", "/spec/scene/count"));
+}
+
+TEST_F(ReportDiff, PointsAreMatched) {
+    a["runs"].push_back(a["runs"][0]);
+    b["runs"].push_back(b["runs"][0]);
+    a["runs"][0]["point"] = {{"/scene/count", 1}};
+    a["runs"][1]["point"] = b["runs"][0]["point"] = {{"/scene/count", 2}};
+    b["runs"][1]["point"] = {{"/scene/count", 3}};
+    const json matched = diff();
+    ASSERT_EQ(matched["runs"].size(), 1u);
+    EXPECT_EQ(matched["runs"][0]["point"], json({{"/scene/count", 2}}));
+    EXPECT_EQ(matched["only_in"]["a"]["points"], json({{{"/scene/count", 1}}}));
+    EXPECT_EQ(matched["only_in"]["b"]["points"], json({{{"/scene/count", 3}}}));
+    EXPECT_NO_THROW(diff({.run = 0}));
+    EXPECT_THROW(diff({.run = 1}), SpecError);
+    b["runs"].erase(0);
+    EXPECT_THAT(conflicts(), ElementsAre("/spec/sweep"));
+}
+
+TEST_F(ReportDiff, ASweepOfMethodsNeedsThemInOneOrder) {
+    a["runs"][0]["point"] = b["runs"][0]["point"] = {{"/methods/2/threshold", 0.5}};
+    EXPECT_THAT(conflicts(), ElementsAre());
+    std::swap(b["spec"]["methods"][1], b["spec"]["methods"][2]);
+    EXPECT_THAT(conflicts(), ElementsAre("/spec/methods"));
+}
+
+TEST_F(ReportDiff, AReportMustBeDone) {
+    b["status"] = "running";
+    EXPECT_THAT(conflicts(), ElementsAre("/status"));
+}
+
+TEST_F(ReportDiff, PixelsBeyondTheLimitAreNotExamined) {
+    Image8 changed(4, 2);
+    changed.pixel(0, 0)[0] = 1;
+    for (std::size_t i = 1; i < 3; ++i) result(b, i)["images"]["color"] = image(changed);
+    const json limited = diff({.max_pixels = 8});
+    EXPECT_EQ(limited["summary"]["pictures"], json({{"identical", 2}, {"different", 1}, {"not examined", 1}}));
+    EXPECT_THAT(diff_table(limited), HasSubstr("too large together"));
+}
+
+TEST_F(ReportDiff, PicturesThatAreNotWhatTheReportSaysAreRefused) {
+    const json color = image(Image8(5, 2));
+    result(b, 1)["images"]["color"] = color;
+    EXPECT_THROW(diff(), std::runtime_error) << "another size";
+    m_files[color["url"]] = "no PNG";
+    EXPECT_THROW(diff(), std::runtime_error) << "another hash";
+    const std::string text = "no PNG, but of the right hash";
+    m_files[sha256_hex(text)] = text;
+    result(b, 1)["images"]["color"] = {{"sha256", sha256_hex(text)}, {"url", sha256_hex(text)}};
+    EXPECT_THROW(diff(), std::runtime_error) << "no PNG";
+}
+
+TEST_F(ReportDiff, LinearPicturesAreComparedByTheirBytes) {
+    EXPECT_TRUE(of(1, "picture")["linear"].is_null());
+    result(a, 1)["images"]["linear"] = {{"sha256", "1"}};
+    result(b, 1)["images"]["linear"] = {{"sha256", "2"}};
+    EXPECT_EQ(of(1, "picture")["linear"], "different");
+    EXPECT_EQ(of(1, "picture")["verdict"], "identical");
+    EXPECT_FALSE(is_worse(diff()));
+}
+
+}  // namespace
+}  // namespace sheer
