@@ -58,6 +58,7 @@ void serve(const ServeOptions& options) {
                               },
                           .max_asset_bytes = config.max_asset_bytes,
                           .max_checks = std::max(1, config.http.threads / 2),
+                          .max_diffs = std::max(1, config.http.threads / 2),
                           .max_queued = config.max_queued,
                           .max_wait = config.max_wait,
                           .ready_within = config.ready_within};

@@ -152,6 +152,19 @@ json asset_list_schema() {
                          {"assets", "accepts", "max_bytes"});
 }
 
+json diff_schema() {
+    const json objects = {{"type", "array"}, {"items", {{"type", "object"}}}};
+    const json object = {{"type", "object"}};
+    return object_schema({{"a", object},
+                          {"b", object},
+                          {"same_device", {{"type", "boolean"}}},
+                          {"differences", objects},
+                          {"only_in", object},
+                          {"summary", object},
+                          {"runs", objects}},
+                         {"a", "b", "same_device", "differences", "only_in", "summary", "runs"});
+}
+
 json problem_schema() {
     const json error = object_schema({{"pointer", text_schema()}, {"detail", text_schema()}}, {"pointer", "detail"});
     return object_schema({{"type", text_schema()},
@@ -170,6 +183,7 @@ json schemas() {
             {"ReportList", list_schema()},
             {"Asset", asset_schema()},
             {"AssetList", asset_list_schema()},
+            {"Diff", diff_schema()},
             {"Problem", problem_schema()},
             {"Catalog", {{"type", "array"}, {"items", {{"type", "object"}}}}},
             {"Health", object_schema({{"status", text_schema()}}, {"status"})}};
@@ -193,7 +207,8 @@ json openapi_document(const std::vector<Route>& routes) {
 
 Router make_router(Service& service) {
     Router router;
-    for (auto* routes : {submit_routes, report_routes, archive_routes, asset_routes, catalog_routes, health_routes})
+    for (auto* routes :
+         {submit_routes, report_routes, diff_routes, archive_routes, asset_routes, catalog_routes, health_routes})
         router.add(routes(service));
     Route openapi{.method = "GET",
                   .pattern = "/api/v1/openapi.json",

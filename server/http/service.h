@@ -22,6 +22,7 @@ struct Service {
     std::function<UploadVerdict(const std::string& bytes, const std::string& media_type)> check_upload;
     std::size_t max_asset_bytes = std::size_t{64} << 20;
     int max_checks = 2;  ///< uploads that are read at a time
+    int max_diffs = 2;   ///< diffs of reports that are made at a time
     std::size_t max_queued = 100;
     std::chrono::seconds max_wait{300};     ///< what `Prefer: wait` is cut to
     std::chrono::seconds ready_within{90};  ///< how long after its last rendering the service still counts as ready
@@ -30,6 +31,7 @@ struct Service {
 // The calls, by what they are about. `service` must outlive the routes.
 std::vector<Route> submit_routes(Service& service);   ///< POST /reports, /specs/validate
 std::vector<Route> report_routes(Service& service);   ///< one report
+std::vector<Route> diff_routes(Service& service);     ///< two reports held against each other
 std::vector<Route> archive_routes(Service& service);  ///< the list of reports, the pictures
 std::vector<Route> asset_routes(Service& service);    ///< uploaded files
 std::vector<Route> catalog_routes(Service& service);  ///< /methods, /scenes, /devices

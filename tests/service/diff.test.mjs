@@ -1,0 +1,141 @@
+// Two reports of one spec held against each other, on the command line and over HTTP.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { QUICK, lasting, with_service } from "./service.mjs";
+
+const folder = mkdtempSync(join(tmpdir(), "sheer-diff-"));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+const sheer = (...words) => spawnSync(process.env.SHEER, words, { encoding: "utf8" });
+const report_in = (name) => JSON.parse(readFileSync(join(folder, name, "report.json"), "utf8"));
+const with_layer = (more) => ({ ...QUICK, scene: { type: "layers", layers: [{ ...QUICK.scene.layers[0], ...more }] } });
+
+/** Renders into a folder of this name. */
+function compare(name, spec) {
+  writeFileSync(join(folder, `${name}.json`), JSON.stringify(spec));
+  const run = sheer("compare", join(folder, `${name}.json`), "--out", join(folder, name));
+  assert.equal(run.status, 0, run.stderr);
+}
+
+function diff(a, b, ...words) {
+  return sheer("diff", join(folder, a), join(folder, b), ...words);
+}
+
+function edit(name, change) {
+  const report = report_in(name);
+  change(report);
+  writeFileSync(join(folder, name, "report.json"), JSON.stringify(report));
+}
+
+test("the same spec again changes nothing", () => {
+  compare("a", { ...QUICK, timing: { warmup: 1, rounds: 6 } });
+  compare("again", { ...QUICK, timing: { warmup: 1, rounds: 7 } });
+  const table = diff("a", "again/report.json");
+  assert.equal(table.status, 0, table.stderr + table.stdout);
+  assert.match(table.stdout, /\/spec\/timing\/rounds: 6 \| 7\n/);
+  assert.match(table.stdout, /^Pictures: 3 identical, 0 different, 0 not examined\./m);
+  const json = JSON.parse(diff("a", "again", "--json").stdout);
+  assert.deepEqual(json.runs[0].results.map((result) => result.label), ["b2f", "f2b"]);
+  assert.equal(json.same_device, true);
+  assert.equal(json.runs[0].results[1].time.b.samples, 7);
+});
+
+test("a picture and a time that changed fail the check", () => {
+  compare("blue", with_layer({ color: [0, 0, 1] }));
+  compare("b", { ...QUICK, timing: { warmup: 1, rounds: 6 } });
+  const blue = report_in("blue").runs[0].results[1].images.color;
+  copyFileSync(join(folder, "blue", blue.url), join(folder, "b", "images", "blue.png"));
+  edit("b", (report) => {
+    report.runs[0].results[1].images.color = { ...blue, url: "images/blue.png" };
+  });
+  const out = join(folder, "out");
+  const run = diff("a", "b", "--json", "--out", out);
+  assert.equal(run.status, 1, run.stderr);
+  const { picture } = JSON.parse(run.stdout).runs[0].results[1];
+  // Half of red against half of blue, over black: 128 levels in two channels of all 16 x 16 pixels.
+  assert.equal(picture.verdict, "different");
+  assert.equal(picture.differing_pixels, 256);
+  assert.ok(Math.abs(picture.greatest_levels - 128) <= 1, `${picture.greatest_levels}`);
+  assert.ok(picture.flip.mean > 0.5, `${picture.flip.mean}`);
+  assert.equal(readFileSync(join(out, picture.flip_picture.url)).subarray(1, 4).toString(), "PNG");
+  assert.deepEqual(JSON.parse(readFileSync(join(out, "diff.json"), "utf8")), JSON.parse(run.stdout));
+  assert.equal(diff("a", "b", "--out", out).status, 1, "a diff may be written over one");
+
+  for (const name of ["a", "again"]) {
+    edit(name, (report) => {
+      const [base, method] = report.runs[0].results;
+      report.runs[0].noise_floor.factor = 1.1;
+      base.timing.samples = [10, 10.1, 10.2, 10.3, 10.4, 10.5];
+      method.timing.samples = base.timing.samples.map((ms) => (name === "a" ? ms : 1.5 * ms));
+    });
+  }
+  const slower = diff("a", "again");
+  assert.equal(slower.status, 1, slower.stdout);
+  assert.match(slower.stdout, /^f2b .* slower$/m);
+  assert.equal(diff("again", "a").status, 0, "faster is not worse");
+});
+
+test("what cannot be compared is told and leaves nothing", () => {
+  compare("wide", { ...QUICK, image: { width: 32, height: 16 } });
+  const out = join(folder, "never");
+  const refused = (words, pattern) => {
+    const run = sheer("diff", ...words, "--out", out);
+    assert.equal(run.status, 2, run.stdout);
+    assert.match(run.stderr, pattern);
+    assert.equal(existsSync(out), false);
+  };
+  const at = (name) => join(folder, name);
+  refused([at("a"), at("wide")], /\/spec\/image\/width: is 16 in one report and 32 in the other/);
+  refused([at("a"), at("blue")], /\/spec\/scene\/layers\/0\/color/);
+  refused([at("a"), at("nowhere")], /cannot read .*nowhere/);
+  refused([at("a"), at("a.json")], /is not a report/);
+  writeFileSync(at("text"), "no JSON");
+  refused([at("a"), at("text")], /is not JSON/);
+  edit("wide", (report) => {
+    delete report.runs[0].results;
+    report.spec.image.width = 16;
+  });
+  refused([at("a"), at("wide")], /cannot be compared/);
+  rmSync(join(at("b"), "images", "blue.png"));
+  refused([at("a"), at("b")], /cannot read .*blue\.png/);
+  assert.equal(sheer("diff", at("a")).status, 2);
+  assert.equal(sheer("diff", at("a"), at("a"), "--out", at("")).status, 2, "a folder of other files is left alone");
+  assert.ok(existsSync(at("text")));
+});
+
+test("over HTTP", async () => {
+  await with_service({}, async (service) => {
+    const ids = [];
+    for (const spec of [QUICK, { ...QUICK, title: "again" }, with_layer({ alpha: 0.25 })]) {
+      ids.push((await service.settled(await service.submit(spec))).id);
+    }
+    const ask = async (a, query, status) => {
+      const response = await fetch(`${service.api}/reports/${a}/diff${query}`);
+      const body = await response.json();
+      assert.equal(response.status, status, JSON.stringify(body));
+      return body;
+    };
+    const same = await ask(ids[0], `?against=${ids[1]}`, 200);
+    assert.equal(same.b.id, ids[1]);
+    assert.deepEqual(same.differences.find((one) => one.pointer === "/spec/title"),
+                     { pointer: "/spec/title", a: QUICK.title, b: "again" });
+    assert.equal(same.summary.pictures.identical, 3);
+    assert.equal((await ask(ids[0], `?against=${ids[1]}&run=0`, 200)).runs.length, 1);
+    assert.deepEqual((await ask(ids[0], `?against=${ids[1]}&run=1`, 422)).errors.map((error) => error.pointer), ["/run"]);
+    assert.deepEqual((await ask(ids[0], `?against=${ids[2]}`, 422)).errors.map((error) => error.pointer),
+                     ["/spec/scene/layers/0/alpha"]);
+    await ask("nothing", `?against=${ids[0]}`, 404);
+    await ask(ids[0], "?against=nothing", 404);
+    assert.deepEqual((await ask(ids[0], "", 400)).errors.map((error) => error.pointer), ["/against"]);
+    await ask(ids[0], `?against=${ids[1]}&run=-1`, 400);
+    const running = await service.submit(lasting(30));
+    await ask(ids[0], `?against=${running}`, 409);
+    await ask(running, `?against=${ids[0]}`, 409);
+    await fetch(`${service.api}/reports/${running}`, { method: "DELETE" });
+    await service.settled(running);
+  });
+});
