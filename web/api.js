@@ -81,6 +81,12 @@ export async function get_report(id, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}`, { signal })).body;
 }
 
+/** What changed from report `id` to report `against`; of one run with its FLIP maps, or of all without them (null). */
+export async function get_diff(id, against, run, signal) {
+  const query = new URLSearchParams(run === null ? { against } : { against, run });
+  return (await call(`/reports/${encodeURIComponent(id)}/diff?${query}`, { signal })).body;
+}
+
 export async function delete_report(id) {
   await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" });
 }

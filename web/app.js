@@ -1,6 +1,7 @@
 // The page: which view the address asks for.
 import { show_archive } from "./archive_view.js";
 import { show_compare } from "./compare_view.js";
+import { show_diff } from "./diff_view.js";
 import { el, set_children } from "./dom.js";
 import { show_report } from "./report_page.js";
 
@@ -8,6 +9,7 @@ const ROUTES = [
   [/^#?\/?$/, show_compare],
   [/^#\/reports\/?$/, show_archive],
   [/^#\/reports\/([^/?]+)$/, show_report],
+  [/^#\/diff\/([^/?]+)\/([^/?]+)$/, show_diff],
 ];
 
 const main = document.getElementById("main");
@@ -16,7 +18,8 @@ let leave = null;
 function mark_current(hash) {
   for (const link of document.querySelectorAll("header.site nav a")) {
     const target = link.getAttribute("href");
-    const current = target === "#/" ? !hash.startsWith("#/reports") : hash.startsWith(target);
+    const of_reports = hash.startsWith("#/reports") || hash.startsWith("#/diff");
+    const current = target === "#/reports" ? of_reports : !of_reports;
     if (current) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }

@@ -27,7 +27,55 @@ function method_names(entry) {
   return (entry.methods ?? []).map((method) => method.label ?? method.id ?? method).join(", ");
 }
 
-function row(entry, on_deleted, on_error) {
+/** Which two reports to hold against each other: chosen in the list, the older one is A. */
+class Choice {
+  #chosen = new Map();
+  #text = el("span", { class: "muted", role: "status" });
+  #button = el(
+    "button",
+    {
+      type: "button",
+      onclick: () => {
+        const [before, after] = [...this.#chosen.values()].sort((a, b) => (a.created_at < b.created_at ? -1 : 1));
+        location.hash = `#/diff/${encodeURIComponent(before.id)}/${encodeURIComponent(after.id)}`;
+      },
+    },
+    "Compare",
+  );
+  element = el("div", { class: "choose-bar" }, this.#button, this.#text);
+
+  constructor() {
+    this.#show();
+  }
+
+  box(entry) {
+    return el("input", {
+      type: "checkbox",
+      "aria-label": `Choose ${entry.title || "Untitled comparison"} to compare`,
+      disabled: entry.status !== "done",
+      checked: this.#chosen.has(entry.id),
+      onchange: (event) => {
+        if (event.target.checked) this.#chosen.set(entry.id, entry);
+        else this.#chosen.delete(entry.id);
+        this.#show();
+      },
+    });
+  }
+
+  drop(id) {
+    this.#chosen.delete(id);
+    this.#show();
+  }
+
+  #show() {
+    const count = this.#chosen.size;
+    this.#button.disabled = count !== 2;
+    this.#text.textContent =
+      count === 2 ? "Two reports are chosen." : `Choose two done reports of one spec to see what changed; ${count} chosen.`;
+  }
+}
+
+function row(entry, choice, on_deleted, on_error) {
   const title = entry.title || "Untitled comparison";
   const remove = el(
     "button",
@@ -40,6 +88,7 @@ function row(entry, on_deleted, on_error) {
         if (!window.confirm(unsettled ? `Cancel “${title}”?` : `Delete “${title}”? This cannot be undone.`)) return;
         try {
           await delete_report(entry.id);
+          choice.drop(entry.id);
           on_deleted(node, unsettled);
         } catch (error) {
           on_error(error);
@@ -51,6 +100,7 @@ function row(entry, on_deleted, on_error) {
   const node = el(
     "li",
     { class: "entry", "data-id": entry.id },
+    choice.box(entry),
     thumbnail(entry),
     el(
       "div",
@@ -84,6 +134,7 @@ export function show_archive(main, signal) {
   const query = { q: "", status: "" };
   const list = el("ul", { class: "entries", "aria-label": "Reports" });
   const note = el("p", { class: "muted", role: "status" });
+  const choice = new Choice();
   const more = el("button", { type: "button", hidden: true, onclick: () => load(false) }, "Load more");
   let cursor = null;
   let request = null;
@@ -110,7 +161,7 @@ export function show_archive(main, signal) {
       const page = await list_reports({ ...query, limit: PAGE_SIZE, cursor: from_start ? "" : cursor }, mine.signal);
       if (mine.signal.aborted) return;
       if (from_start) list.replaceChildren();
-      list.append(...page.reports.map((entry) => row(entry, on_deleted, on_error)));
+      list.append(...page.reports.map((entry) => row(entry, choice, on_deleted, on_error)));
       cursor = page.next_cursor ?? null;
       more.hidden = !cursor;
       note.textContent =
@@ -148,6 +199,7 @@ export function show_archive(main, signal) {
     main,
     el("h1", {}, "Reports"),
     el("div", { class: "filters", role: "search" }, search, status),
+    choice.element,
     note,
     list,
     el("div", { class: "more" }, more),

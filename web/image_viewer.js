@@ -51,7 +51,8 @@ export class ImageViewer {
 
   /**
    * `sources`: [{key, label, pictures: {kind: url}, missing}], the reference first; `kinds`: [{key, label, note}],
-   * the first is what the reference has too. A source without pictures says why in `missing`.
+   * the first is what the reference has too. A source without pictures says why in `missing`; the reference may have
+   * another `name`.
    */
   constructor({ width_px, height_px, sources, kinds }) {
     this.#sources = sources;
@@ -201,7 +202,8 @@ export class ImageViewer {
 
   #figure(source, shown, asked) {
     const value = el("span", { class: "pane-value" });
-    const slide = `Slide between the reference and ${source.label}`;
+    const base = this.#sources.find((one) => one.reference);
+    const slide = `Slide between ${base?.name ?? "the reference"} and ${source.label}`;
     const caption = el(
       "figcaption",
       {},
