@@ -38,13 +38,13 @@ class Comparer {
         check_loops(m_context.gl(), scene, m_spec.image);
         Run run;
         render_reference(scene, run);
-        const Target target(m_context.gl(), m_spec.image, m_spec.image.format);
+        Target target(m_context.gl(), m_spec.image, m_spec.image.format);
         make_methods(scene, target, run);
         time_methods(run);
         count_fragments(scene, target, run);
         ask_methods();
+        measure(target, run);
         m_contenders.clear();
-        measure(run);
         return run;
     }
 
@@ -78,13 +78,39 @@ class Comparer {
         return image;
     }
 
+    /// What the method makes of another background. `own` is its picture over that of the spec.
+    Image over_background(const std::array<float, 3>& background, Method& method, Target& target, const Image& own) {
+        if (background == m_spec.image.background) return own;
+        target.set_background(background);
+        method.restart();
+        render(method, false);
+        Image image = target.read();
+        target.set_background(m_spec.image.background);
+        return image;
+    }
+
+    Backdrops over_backdrops(Method& method, Target& target, const Image& own) {
+        return {over_background({0, 0, 0}, method, target, own), over_background({1, 1, 1}, method, target, own)};
+    }
+
     /// References are rendered in 32-bit floats, whatever the methods blend into.
     void render_reference(const Scene& scene, Run& run) {
         m_progress(references_begin, "rendering the reference " + m_spec.reference.id);
-        const Target target(m_context.gl(), m_spec.image, PixelFormat::rgba32f);
+        Target target(m_context.gl(), m_spec.image, PixelFormat::rgba32f);
         run.reference = m_spec.reference;
-        run.reference_image = picture(m_spec.reference, scene, target);
+        {
+            const auto reference = make_method(m_spec.reference, scene, target);
+            render(*reference, false);
+            run.reference_image = target.read();
+            m_reference_over = over_backdrops(*reference, target, run.reference_image);
+            run.reference_findings = findings(*reference);
+            m_context.check("rendering " + m_spec.reference.id);
+        }
+        check_reference(scene, target, run);
+    }
 
+    /// Against depth peeling, which shares nothing with the lists.
+    void check_reference(const Scene& scene, const Target& target, Run& run) {
         m_timer.begin_frame(false);
         run.overdraw = count_overdraw(m_context.gl(), scene, target, m_timer);
         m_timer.end_frame();
@@ -174,11 +200,16 @@ class Comparer {
     void ask_methods() {
         for (const Contender& contender : m_contenders) {
             if (!contender.result) continue;
-            m_timer.begin_frame(false);
-            contender.result->findings = contender.method->findings(m_timer);
-            m_timer.end_frame();
+            contender.result->findings = findings(*contender.method);
         }
         m_context.check("the methods' findings");
+    }
+
+    nlohmann::json findings(Method& method) {
+        m_timer.begin_frame(false);
+        nlohmann::json found = method.findings(m_timer);
+        m_timer.end_frame();
+        return found;
     }
 
     std::pair<std::optional<PixelCounts>, std::string> count_shaded(Method& method, Scene& scene,
@@ -209,14 +240,18 @@ class Comparer {
         fragments.saturation = known[threshold].saturation;
     }
 
-    void measure(Run& run) {
-        for (std::size_t i = 0; i < run.results.size(); ++i) {
-            MethodResult& result = run.results[i];
-            if (result.status != "ok") continue;
-            step(metrics_begin, 1, i, run.results.size(), "measuring " + result.method.label);
+    /// While the methods live, since they are rendered over other backgrounds: one at a time, to hold few pictures.
+    void measure(Target& target, Run& run) {
+        for (std::size_t i = 0; i < m_contenders.size(); ++i) {
+            if (!m_contenders[i].result) continue;
+            MethodResult& result = *m_contenders[i].result;
+            step(metrics_begin, 1, i, m_contenders.size(), "measuring " + result.method.label);
             result.no_metrics_reason = find_method(result.method.id)->no_metrics_reason;
-            if (result.no_metrics_reason.empty()) result.metrics = compute_metrics(run.reference_image, result.image);
+            if (!result.no_metrics_reason.empty()) continue;
+            const Backdrops over = over_backdrops(*m_contenders[i].method, target, result.image);
+            result.metrics = compute_metrics(run.reference_image, result.image, &m_reference_over, &over);
         }
+        m_context.check("rendering over other backgrounds");
     }
 
     void step(double from, double to, std::size_t index, std::size_t count, const std::string& stage) const {
@@ -229,6 +264,7 @@ class Comparer {
     const ProgressFunction& m_progress;
     gl::FrameTimer m_timer;
     std::vector<Contender> m_contenders;
+    Backdrops m_reference_over;
 };
 
 }  // namespace

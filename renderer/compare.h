@@ -47,6 +47,7 @@ struct Run {
     Image reference_image;
     std::optional<double> residual;  ///< greatest difference of the two references, in 0..1
     std::string no_residual_reason;
+    nlohmann::json reference_findings = nlohmann::json::object();  ///< see Method::findings
     std::vector<MethodResult> results;  ///< in the order of the spec's methods
     PixelCounts overdraw;               ///< transparent fragments that opaque geometry does not hide
     /// Frames of a second instance of the baseline, in the same rounds; none where the baseline cannot run.

@@ -127,6 +127,23 @@ export const DIFFERENCE_COLUMNS = [
     title: "Mean FLIP error",
   },
   {
+    path: "metrics.linear.rmse",
+    metric: "linear.rmse",
+    head: "Float RMSE",
+    unit: "0..",
+    ...lower,
+    title: "Root mean square error of the float pictures, neither clamped nor rounded",
+  },
+  {
+    path: "metrics.over_backgrounds.rmse",
+    metric: "over_backgrounds.rmse",
+    head: "Worst background",
+    unit: "RMSE",
+    ...lower,
+    title: "Root mean square error of the float pictures over black, white or a checker, whichever is worst",
+    note: "metrics.over_backgrounds.worst",
+  },
+  {
     path: "metrics.differing_pixels",
     metric: "differing_pixels",
     head: "Differing",

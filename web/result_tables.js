@@ -51,6 +51,7 @@ function number_cell(result, column, decimals, best) {
     return cell;
   }
   const text = column.whole ? integer(value) : fixed(value, decimals);
+  const note = column.note ? value_at(result, column.note) : null;
   return el(
     "td",
     {
@@ -60,6 +61,7 @@ function number_cell(result, column, decimals, best) {
       title: is_best ? `${value} (best)` : String(value),
     },
     text,
+    note ? el("span", { class: "muted" }, ` ${note}`) : null,
     is_best ? el("span", { class: "visually-hidden" }, " (best)") : null,
   );
 }

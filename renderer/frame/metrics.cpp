@@ -48,11 +48,20 @@ const Image& checked(const Image& reference, const Image& test) {
 
 }  // namespace
 
-ImagePair::ImagePair(const Image& reference_image, const Image& test_image)
+ImagePair::ImagePair(const Image& reference_image, const Image& test_image, const Backdrops* reference_backdrops,
+                     const Backdrops* test_backdrops)
     : reference(checked(reference_image, test_image)),
       test(test_image),
       reference8(quantize(reference_image)),
-      test8(quantize(test_image)) {
+      test8(quantize(test_image)),
+      reference_over(reference_backdrops),
+      test_over(test_backdrops) {
+    if (reference_over && test_over) {
+        require_comparable(reference, reference_over->black);
+        require_comparable(reference, reference_over->white);
+        require_comparable(reference, test_over->black);
+        require_comparable(reference, test_over->white);
+    }
     punish_non_finite(test, reference8, test8);
 }
 
@@ -61,8 +70,9 @@ const std::vector<MetricInfo>& all_metrics() {
     return metrics;
 }
 
-Metrics compute_metrics(const Image& reference, const Image& test) {
-    const ImagePair pair(reference, test);
+Metrics compute_metrics(const Image& reference, const Image& test, const Backdrops* reference_over,
+                        const Backdrops* test_over) {
+    const ImagePair pair(reference, test, reference_over, test_over);
     Metrics result;
     result.values = nlohmann::json::object();
     for (const MetricInfo& metric : all_metrics()) {

@@ -87,7 +87,8 @@ nlohmann::json StencilCap::findings(gl::FrameTimer& timer) {
 std::vector<double> StencilCap::change_per_frame(gl::FrameTimer& timer) {
     std::vector<double> changes;
     Image before;
-    for (m_frame = 0; m_frame < m_frames;) {
+    restart();
+    while (m_frame < m_frames) {
         advance();
         draw_frame(timer);
         Image after = m_target.read();

@@ -16,6 +16,7 @@ class StencilCap : public Method {
     /// The first call renders the frames 1 to `frames`; each later one renders the last of them again, from the same
     /// previous frame, so that the picture is always that of frame `frames` and the time that of one frame.
     void render(gl::FrameTimer& timer) override;
+    void restart() override { m_frame = 0; }
     std::int64_t memory_bytes() const override;
     /// {"change_per_frame": [...]}
     nlohmann::json findings(gl::FrameTimer& timer) override;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -18,6 +19,8 @@ class Target {
     int width_px() const { return m_image.width_px; }
     int height_px() const { return m_image.height_px; }
     glm::vec3 background() const { return {m_image.background[0], m_image.background[1], m_image.background[2]}; }
+    /// Of the frames from now on; what is left of earlier ones in a method is its own to forget (Method::restart).
+    void set_background(const std::array<float, 3>& background) { m_image.background = background; }
     PixelFormat format() const { return m_format; }
     const gl::Framebuffer& framebuffer() const { return m_framebuffer; }
     const gl::Texture& color() const { return m_color; }

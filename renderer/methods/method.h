@@ -28,6 +28,8 @@ class Method {
     virtual ~Method() = default;
     /// Renders a whole frame, opaque geometry included, into the target. Each pass sets the GL state it needs.
     virtual void render(gl::FrameTimer& timer) = 0;
+    /// Forgets the frames before: the next one is drawn as a new method's first.
+    virtual void restart() {}
     /// Textures and buffers that the method needs beside the target.
     virtual std::int64_t memory_bytes() const { return 0; }
     /// What only this method has to report, an object; may render frames of its own, which are not timed.

@@ -9,6 +9,11 @@
 
 namespace sheer {
 
+/// A scene's picture over a black and over a white background, all else equal: what is left of the background shows.
+struct Backdrops {
+    Image black, white;
+};
+
 /// The two pictures of a comparison, same size. The float pictures are what the methods left; the 8-bit ones are their
 /// quantization, except that a non-finite channel of `test8` holds the value furthest from the reference (0 or 255), so
 /// that a broken method never scores better than a wrong one.
@@ -17,9 +22,12 @@ struct ImagePair {
     const Image& test;
     Image8 reference8;
     Image8 test8;
+    const Backdrops* reference_over;  ///< null where they were not rendered
+    const Backdrops* test_over;
 
     /// Throws std::invalid_argument if the sizes differ or a picture is empty or not as long as its size says.
-    ImagePair(const Image& reference_image, const Image& test_image);
+    ImagePair(const Image& reference_image, const Image& test_image, const Backdrops* reference_backdrops = nullptr,
+              const Backdrops* test_backdrops = nullptr);
 };
 
 /// One value of a metric, as checks name it: "flip.mean", or "rmse" where the metric is a single number.
@@ -56,6 +64,7 @@ struct Metrics {
     nlohmann::json values;
     std::vector<std::pair<std::string, Image8>> pictures;
 };
-Metrics compute_metrics(const Image& reference, const Image& test);
+Metrics compute_metrics(const Image& reference, const Image& test, const Backdrops* reference_over = nullptr,
+                        const Backdrops* test_over = nullptr);
 
 }  // namespace sheer

@@ -223,12 +223,13 @@ TEST(AllMetrics, DescribeThemselves) {
             EXPECT_FALSE(field.range.empty());
         }
     }
-    EXPECT_THAT(ids, testing::ElementsAre("differing_pixels", "flip", "non_finite", "psnr", "rmse", "signed", "ssim",
-                                          "worst_pixel"));
+    EXPECT_THAT(ids, testing::ElementsAre("differing_pixels", "flip", "linear", "non_finite", "over_backgrounds",
+                                          "psnr", "rmse", "signed", "ssim", "worst_pixel"));
 }
 
 TEST(AllMetrics, ValuesHaveTheFieldsTheyAnnounce) {
-    const Metrics found = compute_metrics(small_reference(), small_test());
+    const Backdrops reference{small_reference(), small_reference()}, test{small_test(), small_test()};
+    const Metrics found = compute_metrics(small_reference(), small_test(), &reference, &test);
     EXPECT_EQ(found.values.size(), all_metrics().size());
     for (const MetricInfo& metric : all_metrics()) {
         SCOPED_TRACE(metric.id);
