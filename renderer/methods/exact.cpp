@@ -1,11 +1,12 @@
 // The reference: every fragment of a pixel is kept, sorted by depth and composited in 32-bit floats.
 // Lists: per-pixel linked lists with atomics (Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List
 // Construction on the GPU, EGSR 2010). The fragments are counted first, and the image is cut into tiles whose fragments
-// fit the memory, so that none is ever dropped. Each list is sorted by merging runs, in several passes, because a
-// shader's loops may have an iteration limit (65,535 on llvmpipe).
-// Sorted: where the primitives are parallel, drawing them from near to far into 32-bit floats gives the same picture
-// faster; form `auto` then takes it.
-// Good at: being right. Bad at: memory and time. Parameters: `form` auto, lists or sorted; `memory_mib` for the lists.
+// fit the memory, so that none is ever dropped. In the first frame the fragments that were drawn are held against those
+// that were counted: should a driver draw others, the method fails rather than lose one. Each list is sorted by merging
+// runs, in several passes, because a shader's loops may have an iteration limit (65,535 on llvmpipe). Sorted: where the
+// primitives are parallel, drawing them from near to far into 32-bit floats gives the same picture faster; form `auto`
+// then takes it. Good at: being right. Bad at: memory and time. Parameters: `form` auto, lists or sorted; `memory_mib`
+// for the lists.
 #include <algorithm>
 #include <array>
 
@@ -62,12 +63,23 @@ class LinkedLists : public Method {
     }
 
     void render(gl::FrameTimer& timer) override {
-        if (!m_nodes) prepare(timer);
+        const bool first = !m_nodes;
+        if (first) prepare(timer);
         m_opaque.draw(timer);
         for (const Tile& tile : m_tiles) {
             build(tile, timer);
+            if (first) require_all_kept(tile);
             sort_and_composite(tile, timer);
         }
+    }
+
+    /// {"lists": {"fragments", "kept", "tiles", "memory_bytes"}}: how many were counted, and how many the lists held.
+    nlohmann::json findings(gl::FrameTimer&) override {
+        return {{"lists",
+                 {{"fragments", m_overdraw.total()},
+                  {"kept", m_kept},
+                  {"tiles", m_tiles.size()},
+                  {"memory_bytes", m_memory_bytes}}}};
     }
 
     std::int64_t memory_bytes() const override { return m_memory_bytes; }
@@ -80,15 +92,15 @@ class LinkedLists : public Method {
 
     /// The scene does not change from frame to frame, so it is counted once.
     void prepare(gl::FrameTimer& timer) {
-        const PixelCounts overdraw = count_overdraw(m_gl, m_scene, m_target, timer);
-        m_longest = overdraw.greatest();
+        m_overdraw = count_overdraw(m_gl, m_scene, m_target, timer);
+        m_longest = m_overdraw.greatest();
         if (m_longest > loop_budget)
             throw Unsupported("one pixel has " + std::to_string(m_longest) + " fragments; a pass can sort " +
                               std::to_string(loop_budget));
-        divide(overdraw, {0, 0, m_target.width_px(), m_target.height_px()}, m_capacity, m_tiles);
+        divide(m_overdraw, {0, 0, m_target.width_px(), m_target.height_px()}, m_capacity, m_tiles);
         std::uint64_t most_nodes = 1, most_pixels = 1;
         for (const Tile& tile : m_tiles) {
-            most_nodes = std::max(most_nodes, overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1));
+            most_nodes = std::max(most_nodes, counted_in(tile));
             most_pixels = std::max(most_pixels, static_cast<std::uint64_t>(tile.width()) * tile.height());
         }
         const auto nodes_bytes = static_cast<GLsizeiptr>(most_nodes * node_bytes);
@@ -96,6 +108,19 @@ class LinkedLists : public Method {
         m_nodes = gl::make_buffer(m_gl, "exact: nodes", nodes_bytes, nullptr);
         m_heads = gl::make_buffer(m_gl, "exact: heads", heads_bytes, nullptr);
         m_memory_bytes = nodes_bytes + heads_bytes;
+    }
+
+    std::uint64_t counted_in(const Tile& tile) const { return m_overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1); }
+
+    /// Each fragment takes a number, also one that finds no room any more.
+    void require_all_kept(const Tile& tile) {
+        std::uint32_t drawn = 0;
+        m_gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        m_gl.GetNamedBufferSubData(m_heads.id(), 0, sizeof drawn, &drawn);
+        if (drawn != counted_in(tile))
+            throw RenderError("exact: the driver drew " + std::to_string(drawn) + " fragments where it had counted " +
+                              std::to_string(counted_in(tile)) + "; the lists would be wrong");
+        m_kept += drawn;
     }
 
     void begin_tile_pass(const Tile& tile) const {
@@ -151,6 +176,8 @@ class LinkedLists : public Method {
     gl::Program m_build;
     FullscreenPass m_sort, m_composite;
     std::uint64_t m_capacity = 0;
+    PixelCounts m_overdraw;
+    std::uint64_t m_kept = 0;
     std::uint32_t m_longest = 0;
     std::vector<Tile> m_tiles;
     gl::Buffer m_nodes, m_heads;

@@ -111,6 +111,23 @@ TEST(Compare, CanBeCancelledBetweenRounds) {
     EXPECT_NO_THROW(compare_here(small_spec(), *context, no_progress)) << "the context is still of use";
 }
 
+TEST(Compare, ChecksTheReferenceAtEveryPoint) {
+    const Spec spec = parse_spec({{"scene", small_quads()},
+                                  {"methods", {"b2f"}},
+                                  {"reference", {{"id", "exact"}, {"form", "lists"}}},
+                                  {"image", {{"width", 16}, {"height", 16}}},
+                                  {"timing", {{"rounds", 1}}},
+                                  {"sweep", {{{"pointer", "/scene/count"}, {"values", {1, 8, 20}}}}}});
+    const auto context = make_context("egl");
+    const auto runs = compare_here(spec, *context, no_progress);
+    ASSERT_EQ(runs.size(), 3u);
+    for (const sheer::Run& run : runs) {
+        ASSERT_TRUE(run.residual.has_value());
+        EXPECT_LT(*run.residual, 1e-5);
+        EXPECT_EQ(run.reference_findings["lists"]["kept"], run.overdraw.total());
+    }
+}
+
 /// A method that cannot run here is reported, and the others are compared all the same.
 TEST(Compare, ReportsWhatIsUnsupported) {
     const Spec spec =

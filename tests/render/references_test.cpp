@@ -1,5 +1,10 @@
 // The two references against each other, and against themselves under hardship.
+#include <gmock/gmock.h>
+
+#include "renderer/errors.h"
 #include "renderer/frame/overdraw.h"
+#include "renderer/scene/random.h"
+#include "tests/render/compositor.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test {
@@ -27,6 +32,79 @@ TEST(References, AgreeOnQuads) {
     EXPECT_LE(greatest_difference(lists, stage.picture(spec.methods[2])), float_tolerance);
 }
 
+double greatest_difference_to(const Compositor& compositor, const Image& image) {
+    double greatest = 0;
+    for (int y = 0; y < image.height_px; ++y)
+        for (int x = 0; x < image.width_px; ++x) {
+            const Compositor::Color color = compositor.pixel(x, y, Compositor::Order::by_depth);
+            for (std::size_t i = 0; i < 3; ++i)
+                greatest = std::max(greatest, std::abs(color[i] - double{image.pixel(x, y)[i]}));
+        }
+    return greatest;
+}
+
+/// 60 rectangles, some opaque, all of them over each other in the middle: three programs that share no code but the
+/// scene's, and the compositor of the tests, which shares nothing.
+TEST(References, AgreeWithEachOtherAndWithDoublePrecision) {
+    constexpr int size_px = 32;
+    Random random(5);
+    nlohmann::json layers = nlohmann::json::array();
+    for (int i = 0; i < 60; ++i) {
+        const auto edge = [&](double from) { return from + static_cast<double>(random.below(14)) / size_px; };
+        layers.push_back({{"rect", {edge(0), edge(0), edge(0.5), edge(0.5)}},
+                          {"depth", random.between(0.05, 0.95)},
+                          {"color", {random.unit(), random.unit(), random.unit()}},
+                          {"alpha", 0.3 * random.unit()},
+                          {"opaque", i % 20 == 11}});
+    }
+    const Spec spec =
+        make_spec({{"type", "layers"}, {"layers", layers}},
+                  {{{"id", "exact"}, {"form", "lists"}}, {{"id", "exact"}, {"form", "sorted"}}, "depth_peeling"},
+                  size_px, "rgba32f");
+    const Compositor compositor(spec.scene, size_px, {0.2, 0.4, 0.6});
+    const auto context = make_context("egl");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    std::vector<Image> pictures;
+    for (const MethodSpec& method : spec.methods) {
+        pictures.push_back(stage.picture(method));
+        EXPECT_LE(greatest_difference_to(compositor, pictures.back()), float_tolerance) << method.label;
+        EXPECT_LE(greatest_difference(pictures.front(), pictures.back()), float_tolerance) << method.label;
+    }
+    EXPECT_GT(greatest_difference_to(Compositor(spec.scene, size_px, {0.3, 0.4, 0.6}), pictures[0]), 0.05);
+}
+
+/// The context's functions, but for the read-back of how many fragments the lists took, which is one too many.
+class OneFragmentMore {
+  public:
+    explicit OneFragmentMore(const gl::Functions& real) : m_functions(real) {
+        s_real = &real;
+        m_functions.GetNamedBufferSubData = [](GLuint buffer, GLintptr offset, GLsizeiptr size, void* data) {
+            s_real->GetNamedBufferSubData(buffer, offset, size, data);
+            ++*static_cast<std::uint32_t*>(data);
+        };
+    }
+    const gl::Functions& functions() const { return m_functions; }
+
+  private:
+    static inline const gl::Functions* s_real = nullptr;
+    gl::Functions m_functions;
+};
+
+/// A fragment that was not counted has no room in the lists: there is no picture rather than one without it.
+TEST(References, AFragmentThatWasNotCountedEndsIt) {
+    const auto context = make_context("egl");
+    const Spec spec = make_spec(quads(5), {{{"id", "exact"}, {"form", "lists"}}}, 16, "rgba32f");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    const OneFragmentMore faulty(context->gl());
+    const auto method = stage.make(spec.methods[0], &faulty.functions());
+    try {
+        stage.frame(*method);
+        FAIL();
+    } catch (const RenderError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("the lists would be wrong"));
+    }
+}
+
 /// 1 MiB holds 37,449 fragments; this scene has over ten times as many.
 TEST(References, ListsInTilesGiveTheSamePicture) {
     const auto context = make_context("egl");
@@ -44,6 +122,12 @@ TEST(References, ListsInTilesGiveTheSamePicture) {
     stage.frame(*small);
     const Image tiled = stage.target().read();
     EXPECT_LE(small->memory_bytes(), (1 << 20) + 64 * 64 * 4 + 4);
+    stage.frame(*small);
+    const nlohmann::json lists = small->findings(timer)["lists"];
+    EXPECT_EQ(lists["fragments"], overdraw.total());
+    EXPECT_EQ(lists["kept"], overdraw.total());
+    EXPECT_GT(lists["tiles"], 10);
+    EXPECT_EQ(lists["memory_bytes"], small->memory_bytes());
     EXPECT_EQ(greatest_difference(tiled, stage.picture(spec.methods[1])), 0);
 }
 
