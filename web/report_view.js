@@ -243,8 +243,7 @@ function run_part(report, run, options) {
     report.runs.length > 1 ? facts([["Reference", reference_text(run)]]) : null,
     viewer.element,
     linear_links(run, picture_url),
-    frontier_section(run),
-    report.device?.software ? [fragments, times] : [times, fragments],
+    report.device?.software ? [fragments, frontier_section(run), times] : [frontier_section(run), times, fragments],
     difference_table(run.results, context),
   ];
 }
@@ -258,15 +257,32 @@ function run_size(report, run) {
   };
 }
 
+/** Processes that wanted a core, before and after: a busy machine disturbs the times. */
+function load_text(load) {
+  if (!load) return "";
+  const one = (means) => (Array.isArray(means) ? means.map((mean) => fixed(mean, 2)).join(", ") : null);
+  const [start, end] = [one(load.start), one(load.end)];
+  if (!start || !end) return load.reason ?? "not measured";
+  return `${start} at the start, ${end} at the end (means over 1, 5 and 15 minutes)`;
+}
+
+function colour_text(space) {
+  return space ? [space.values, `blended ${space.blending}`].join("; ") : "";
+}
+
 function origin(report) {
   const { device = {}, provenance = {} } = report;
   const rows = [
     ["Renderer", device.renderer],
     ["Vendor", device.vendor],
     ["OpenGL", device.gl_version],
+    ["Driver", device.driver ?? device.driver_reason],
     ["Context", device.context],
-    ["CPU", device.cpu],
+    ["CPU", [device.cpu, provenance.cores ? `${provenance.cores} cores` : null].filter(Boolean).join(", ")],
+    ["Governor", provenance.governor ?? provenance.governor_reason],
+    ["Load", load_text(provenance.load)],
     ["Workarounds", (device.workarounds ?? []).join(", ") || "none"],
+    ["Colour", colour_text(report.color_space)],
     ["Version", [provenance.version, provenance.commit].filter(Boolean).join(" ")],
     ["Rerun", provenance.rerun],
     ["Spec SHA-256", report.spec_sha256],

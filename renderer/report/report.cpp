@@ -11,10 +11,12 @@
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "renderer/report/frontier.h"
 #include "renderer/report/measured.h"
 #include "renderer/report/picture_file.h"
+#include "renderer/report/provenance.h"
 #include "renderer/report/suite.h"
 #include "renderer/report/timing.h"
 #include "version.h"
@@ -25,14 +27,6 @@ using nlohmann::json;
 
 namespace {
 
-std::string cpu_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    }
-    return "unknown";
-}
-
 /// A name for files: what is neither letter nor digit becomes a dash.
 std::string file_name(const std::string& label) {
     std::string name;
@@ -42,8 +36,22 @@ std::string file_name(const std::string& label) {
 
 json device_json(const Device& device) {
     json object = gl::to_json(device.info);
+    const std::string driver = driver_of(device.info.gl_version);
+    object["driver"] = driver.empty() ? json() : json(driver);
+    if (driver.empty()) object["driver_reason"] = "the version of OpenGL does not name it";
     object["cpu"] = cpu_name();
     object["workarounds"] = device.workarounds;
+    return object;
+}
+
+/// What made the report, and in which state the machine was when it began.
+json provenance_json(const Device& device) {
+    json object = {{"version", version},
+                   {"commit", commit},
+                   {"rerun", "sheer compare SPEC.json" + context_arguments(device)},
+                   {"cores", std::thread::hardware_concurrency()},
+                   {"load", {{"start", load_average()}, {"end", nullptr}}}};
+    object.update(governor());
     return object;
 }
 
@@ -60,6 +68,7 @@ class RunWriter {
         json reference = {{"method", m_run.reference.id},
                           {"parameters", m_run.reference.parameters},
                           {"images", pictures(m_run.reference_image, "reference-" + m_run.reference.id, true)},
+                          {"findings", m_run.reference_findings},
                           {"residual", {{"depth_peeling", m_run.residual ? json(*m_run.residual) : json()}}}};
         if (!m_run.residual) reference["residual_reason"] = m_run.no_residual_reason;
         json results = json::array();
@@ -262,7 +271,8 @@ ReportMaker::ReportMaker(const Spec& spec, const Device& device, BlobSink& sink,
                 {"error", nullptr},          {"created_at", created_at},
                 {"spec", m_spec.normalised}, {"spec_sha256", sha256_hex(m_spec.canonical_text())},
                 {"runs", json::array()},     {"device", device_json(device)}};
-    m_report["provenance"] = {{"version", version}, {"commit", commit}, {"rerun", "sheer compare SPEC.json"}};
+    m_report["color_space"] = color_space();
+    m_report["provenance"] = provenance_json(device);
 }
 
 void ReportMaker::add(const Run& run) {
@@ -276,8 +286,16 @@ json ReportMaker::finish() {
     if (const Suite* suite = find_suite(m_spec.suite)) m_report["suite"] = suite_report(*suite, runs);
     m_report["checks"] = check_all(m_spec.checks, runs);
     m_report["verdict"] = verdict_of(m_report["checks"]);
+    json& load = m_report["provenance"]["load"];
+    load["end"] = load_average();
+    if (load["start"].is_null() || load["end"].is_null()) load["reason"] = "/proc/loadavg does not say";
     m_report["finished_at"] = utc_now();
     return std::move(m_report);
+}
+
+std::string context_arguments(const Device& device) {
+    if (device.info.context.empty() || device.info.name.empty()) return "";
+    return fmt::format(" --context {} --device {}", device.info.context, device.info.name);
 }
 
 std::string sha256_hex(const std::string& bytes) {

@@ -55,6 +55,9 @@ class ReportMaker {
     nlohmann::json m_report;
 };
 
+/// What the command line needs to render on this device again, with a space before it; "" where it has no name.
+std::string context_arguments(const Device& device);
+
 /// A table for the terminal: a line a method.
 std::string report_table(const nlohmann::json& report);
 /// JUnit XML: a test case for each check and one for the rendering of each method.

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
+#include <cstring>
 #include <optional>
 
 #include "renderer/assets/file_assets.h"
@@ -70,9 +73,22 @@ Spec read_spec(const Options& options) {
     return parse_spec(suite_spec(*suite, options.scale));
 }
 
-std::string rerun(const Options& options) {
-    if (options.suite.empty()) return "sheer compare " + options.spec;
-    return fmt::format("sheer compare --suite {} --scale {}", options.suite, options.scale);
+/// A word of a shell's command line.
+std::string quoted(const std::string& text) {
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+,:@%", c); };
+    if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
+std::string rerun(const Options& options, const Device& device) {
+    std::string command = "sheer compare ";
+    command += options.suite.empty() ? quoted(options.spec)
+                                     : fmt::format("--suite {} --scale {}", options.suite, options.scale);
+    command += context_arguments(device);
+    for (const std::string& name : options.context.disabled_workarounds) command += " --without-workaround " + name;
+    return command;
 }
 
 std::unique_ptr<BlobSink> make_sink(const std::optional<ReportFolder>& folder) {
@@ -91,12 +107,13 @@ int run(const Options& options) {
         const auto context = gl::create_context(options.context);
         FileAssets assets = assets_in_folder(std::filesystem::path(options.spec).parent_path());
         const std::unique_ptr<BlobSink> sink = make_sink(folder);
-        ReportMaker maker(spec, describe_device(*context), *sink, created_at);
+        const Device device = describe_device(*context);
+        ReportMaker maker(spec, device, *sink, created_at);
         compare(
             spec, *context, assets, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); },
             [&](const Run& run) { maker.add(run); });
         report = maker.finish();
-        report["provenance"]["rerun"] = rerun(options);
+        report["provenance"]["rerun"] = rerun(options, device);
         if (folder) {
             write_report(report, folder->partial());
             folder->commit();

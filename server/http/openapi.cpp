@@ -116,7 +116,7 @@ json report_schema() {
     properties["stage"] = {{"type", "string"},
                            {"description", "what the renderer is at; only until the report is done"}};
     properties["spec"] = reference("Spec");
-    for (const char* name : {"device", "provenance"}) properties[name] = {{"type", "object"}};
+    for (const char* name : {"device", "color_space", "provenance"}) properties[name] = {{"type", "object"}};
     for (const char* name : {"runs", "checks"}) properties[name] = {{"type", "array"}, {"items", {{"type", "object"}}}};
     properties["verdict"] = {{"enum", {"passed", "failed", "none"}}};
     return object_schema(properties, {"id", "status", "progress", "error", "created_at", "spec", "spec_sha256"});

@@ -232,6 +232,31 @@ TEST_F(ReportFixture, ChecksHoldTheirLimits) {
     EXPECT_EQ(made["verdict"], "failed");
 }
 
+TEST_F(ReportFixture, SaysWhereItComesFromAndWhatItsNumbersMean) {
+    device.info.name = "egl:1";
+    device.info.gl_version = "4.6.0 NVIDIA 535.183.01";
+    device.workarounds = {"flush-timer-queries"};
+    runs[0].reference_findings = {{"lists", {{"kept", 80}}}};
+    const json made = report();
+    EXPECT_EQ(made["device"]["driver"], "NVIDIA 535.183.01");
+    EXPECT_EQ(made["device"]["workarounds"], json({"flush-timer-queries"}));
+    EXPECT_FALSE(made["device"]["cpu"].get<std::string>().empty());
+    const json& provenance = made["provenance"];
+    EXPECT_EQ(provenance["rerun"], "sheer compare SPEC.json --context egl --device egl:1");
+    EXPECT_GT(provenance["cores"], 0);
+    EXPECT_FALSE(provenance["version"].get<std::string>().empty());
+    EXPECT_FALSE(provenance["commit"].get<std::string>().empty());
+    for (const char* when : {"start", "end"}) EXPECT_EQ(provenance["load"][when].size(), 3u) << when;
+    EXPECT_EQ(provenance["governor"].is_null(), provenance.contains("governor_reason"));
+    EXPECT_THAT(made["color_space"]["blending"].get<std::string>(), HasSubstr("none is converted to linear light"));
+    EXPECT_EQ(made["runs"][0]["reference"]["findings"]["lists"]["kept"], 80);
+
+    device.info.gl_version = "4.6";
+    const json unnamed = report()["device"];
+    EXPECT_TRUE(unnamed["driver"].is_null());
+    EXPECT_TRUE(unnamed.contains("driver_reason"));
+}
+
 TEST_F(ReportFixture, WhatWasNotMeasuredIsNullWithAReason) {
     const json run = report()["runs"][0];
     EXPECT_TRUE(run["reference"]["residual"]["depth_peeling"].is_null());

@@ -51,6 +51,8 @@ page_test("the tables show the numbers of the report", {}, async (page) => {
       "metrics.psnr",
       "metrics.ssim",
       "metrics.flip.mean",
+      "metrics.linear.rmse",
+      "metrics.over_backgrounds.rmse",
       "metrics.differing_pixels",
       "metrics.non_finite",
     ],
@@ -184,6 +186,14 @@ for (const place of ["served", "opened from a file"]) {
     await page.locator("article.report").waitFor();
     assert.deepEqual(await table_values(page, "timings"), expected.timings);
     assert.deepEqual(await table_values(page, "differences"), expected.differences);
+    const { device, provenance } = await api(`/reports/${tests.report_id()}`);
+    await page.getByText("Device and origin").click();
+    const origin = await page.locator(".details-row dl").textContent();
+    const governor = provenance.governor ?? provenance.governor_reason;
+    for (const fact of [device.driver, device.cpu, governor, provenance.commit, provenance.rerun])
+      assert.ok(origin.includes(fact), fact);
+    assert.match(origin, /at the start, .* at the end/);
+    assert.match(origin, /none is converted to linear light/);
     assert.equal(await page.locator("h1").textContent(), HOSTILE);
     await loaded(page);
     await page.locator("figure.pane .pane-view").first().hover();
