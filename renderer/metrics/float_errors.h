@@ -15,6 +15,7 @@ struct FloatErrors {
 
     /// `pixels` pixels of 4 floats each.
     void add(const float* reference, const float* test, std::size_t pixels);
+    FloatErrors& operator+=(const FloatErrors& other);
     /// False where a NaN or an infinity was among them: the sums mean nothing then.
     bool finite() const;
     double mean_abs() const { return sum_of_absolutes / double(count); }

@@ -19,16 +19,21 @@ struct Named {
     FloatErrors errors;
 };
 
-FloatErrors over_checker(const Backdrops& reference, const Backdrops& test) {
-    FloatErrors errors;
-    for (int y = 0; y < reference.black.height_px; ++y)
-        for (int x = 0; x < reference.black.width_px; x += square_px) {
-            const bool white = (x / square_px + y / square_px) % 2 == 1;
-            const int width = std::min(square_px, reference.black.width_px - x);
-            errors.add((white ? reference.white : reference.black).pixel(x, y),
-                       (white ? test.white : test.black).pixel(x, y), static_cast<std::size_t>(width));
+/// Over black, white and the checker, in this order.
+std::array<Named, 3> errors_over(const Backdrops& reference, const Backdrops& test) {
+    std::array<Named, 3> all = {{{"black", {}}, {"white", {}}, {"checker", {}}}};
+    const int width = reference.black.width_px, height = reference.black.height_px;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; x += square_px) {
+            const auto pixels = static_cast<std::size_t>(std::min(square_px, width - x));
+            FloatErrors black, white;
+            black.add(reference.black.pixel(x, y), test.black.pixel(x, y), pixels);
+            white.add(reference.white.pixel(x, y), test.white.pixel(x, y), pixels);
+            all[0].errors += black;
+            all[1].errors += white;
+            all[2].errors += (x / square_px + y / square_px) % 2 == 0 ? black : white;
         }
-    return errors;
+    return all;
 }
 
 nlohmann::json nothing(const std::string& reason) {
@@ -39,10 +44,7 @@ nlohmann::json nothing(const std::string& reason) {
 MetricValue compute(const ImagePair& pair) {
     if (!pair.reference_over || !pair.test_over)
         return {nothing("the pictures over black and white were not rendered"), std::nullopt};
-    const Backdrops &reference = *pair.reference_over, &test = *pair.test_over;
-    const std::array<Named, 3> all = {{{"black", float_errors(reference.black, test.black)},
-                                       {"white", float_errors(reference.white, test.white)},
-                                       {"checker", over_checker(reference, test)}}};
+    const std::array<Named, 3> all = errors_over(*pair.reference_over, *pair.test_over);
     nlohmann::json value = nlohmann::json::object();
     const Named* worst = all.data();
     double greatest = 0;
