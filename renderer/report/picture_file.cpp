@@ -53,6 +53,8 @@ std::string encode_jpeg(const Image8& image) {
 std::string encode_exr(const Image& image) {
     OIIO::ImageSpec spec(image.width_px, image.height_px, 4, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
+    // Without a date the writer takes the time of day, and the same pixels would be other bytes each time.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     return encode("openexr", spec, OIIO::TypeDesc::FLOAT, image.rgba.data());
 }
 

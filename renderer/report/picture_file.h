@@ -9,7 +9,7 @@ namespace sheer {
 std::string encode_png(const Image8& image);
 /// JPEG of 8 bits per channel, RGB, for pictures that are only looked at.
 std::string encode_jpeg(const Image8& image);
-/// OpenEXR of 32-bit floats, RGBA, ZIP-compressed: the values as the method left them.
+/// OpenEXR of 32-bit floats, RGBA, ZIP-compressed: the values as the method left them. Equal pictures are equal bytes.
 std::string encode_exr(const Image& image);
 
 /// Reads a PNG file that Sheer or a test wrote; not for files from outside. Throws std::runtime_error naming the file.

@@ -41,6 +41,7 @@ test("the same spec again changes nothing", () => {
   const json = JSON.parse(diff("a", "again", "--json").stdout);
   assert.deepEqual(json.runs[0].results.map((result) => result.label), ["b2f", "f2b"]);
   assert.equal(json.same_device, true);
+  assert.equal(json.runs[0].reference.picture.linear, "identical");
   assert.equal(json.runs[0].results[1].time.b.samples, 7);
 });
 

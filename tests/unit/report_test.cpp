@@ -279,6 +279,10 @@ TEST_F(ReportFixture, PicturesHaveNamesAndHashesOfTheirBytes) {
     EXPECT_TRUE(sink.bytes_by_name.contains("reference-exact.linear.exr"));
 }
 
+TEST_F(ReportFixture, LinearPicturesDoNotHoldTheTimeOfDay) {
+    EXPECT_THAT(encode_exr(Image(2, 1)), HasSubstr("1970:01:01 00:00:00"));
+}
+
 TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
     const std::string table = report_table(report());
     EXPECT_THAT(table, HasSubstr("b2f           35.00"));
