@@ -11,7 +11,7 @@ const HEADS = [
   ["FLIP mean", "number"],
   ["FLIP max", "number"],
   ["Differing px", "number"],
-  ["Greatest levels", "number"],
+  ["Greatest difference, levels", "number"],
   ["Worst pixel", "number"],
   ["A ms", "number"],
   ["B ms", "number"],
