@@ -64,7 +64,7 @@ std::string time_table(const json& run) {
         if (time["reason"].is_string())
             reasons += fmt::format("{} is not resolved: {}.\n", text(result["label"]), text(time["reason"]));
     }
-    return rows.size() == 1 ? "" : "\n" + aligned(rows) + reasons;
+    return rows.size() == 1 ? "" : fmt::format("\n{}{}", aligned(rows), reasons);
 }
 
 std::string side_line(const char* name, const json& side) {
@@ -99,7 +99,7 @@ std::string diff_table(const json& diff) {
                  : "Different devices: B is faster or slower by its time alone.\n";
     for (const json& run : diff["runs"]) {
         if (!run["point"].empty()) lines += "\nAt " + describe_point(run["point"]);
-        lines += "\n" + picture_table(run) + time_table(run);
+        lines += fmt::format("\n{}{}", picture_table(run), time_table(run));
     }
     return lines + conclusion(diff);
 }
