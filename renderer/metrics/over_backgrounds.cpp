@@ -55,8 +55,8 @@ MetricValue compute(const ImagePair& pair) {
         greatest = std::max(greatest, one.errors.greatest);
         if (one.errors.rmse() > worst->errors.rmse()) worst = &one;
     }
-    value["worst"] = worst->name;
     value["rmse"] = worst->errors.rmse();
+    value["worst"] = greatest > 0 ? nlohmann::json(worst->name) : nlohmann::json();
     value["max_abs"] = greatest;
     return {value, std::nullopt};
 }
@@ -64,21 +64,21 @@ MetricValue compute(const ImagePair& pair) {
 }  // namespace
 
 MetricInfo metric_over_backgrounds() {
-    return {
-        "over_backgrounds",
-        "Over other backgrounds",
-        "Differences of the float pictures rendered over black, over white and over a checker of 8 px, so that a "
-        "wrong alpha shows whatever the background of the comparison is. Null with a reason where a value is not "
-        "finite.",
-        "Porter, Duff, Compositing Digital Images, SIGGRAPH 1984: a pixel over a background B is C + T B",
-        "",
-        {{"worst", "", "black, white or checker", "The background with the greatest error; of equals the first", false},
-         {"rmse", "", "0..", "Root mean square error over the worst background"},
-         {"max_abs", "", "0..", "Greatest absolute difference of a channel over any of them"},
-         {"black", "", "0..", "Root mean square error over black"},
-         {"white", "", "0..", "Root mean square error over white"},
-         {"checker", "", "0..", "Root mean square error over the checker"}},
-        compute};
+    return {"over_backgrounds",
+            "Over other backgrounds",
+            "Differences of the float pictures rendered over black, over white and over a checker of 8 px, so that a "
+            "wrong alpha shows whatever the background of the comparison is. Null with a reason where a value is not "
+            "finite.",
+            "Porter, Duff, Compositing Digital Images, SIGGRAPH 1984: a pixel over a background B is C + T B",
+            "",
+            {{"worst", "", "black, white or checker",
+              "The background with the greatest error; of equals the first, null where nothing differs", false},
+             {"rmse", "", "0..", "Root mean square error over the worst background"},
+             {"max_abs", "", "0..", "Greatest absolute difference of a channel over any of them"},
+             {"black", "", "0..", "Root mean square error over black"},
+             {"white", "", "0..", "Root mean square error over white"},
+             {"checker", "", "0..", "Root mean square error over the checker"}},
+            compute};
 }
 
 }  // namespace sheer

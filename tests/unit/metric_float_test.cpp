@@ -107,10 +107,12 @@ TEST(OverBackgrounds, RowsOfSquaresAlternateAndTheLastMayBeCut) {
     EXPECT_NEAR(over(reference, test)["checker"], std::sqrt(0.25 * 32 / 100), 1e-9);
 }
 
-TEST(OverBackgrounds, OfEqualsTheFirstIsTheWorst) {
-    const Backdrops same{grey(8, 8, 0), grey(8, 8, 1)};
-    EXPECT_EQ(over(same, same)["worst"], "black");
-    EXPECT_EQ(over(same, same)["rmse"], 0.0);
+TEST(OverBackgrounds, OfEqualsTheFirstIsTheWorstAndOfIdenticalPicturesNone) {
+    const Backdrops reference{grey(8, 8, 0), grey(8, 8, 1)}, test{grey(8, 8, 0.5f), grey(8, 8, 0.5f)};
+    EXPECT_EQ(over(reference, test)["worst"], "black");
+    EXPECT_EQ(over(reference, test)["rmse"], 0.5);
+    EXPECT_TRUE(over(reference, reference)["worst"].is_null());
+    EXPECT_EQ(over(reference, reference)["rmse"], 0.0);
 }
 
 TEST(OverBackgrounds, WithoutANumberThereIsAReason) {
