@@ -226,10 +226,14 @@ TEST_F(ReportDiff, DifferencesThatLeaveThePicturesAloneAreListed) {
     b["spec"]["timing"]["rounds"] = 20;
     b["spec"]["scene"]["newer"] = 1;
     b["provenance"]["commit"] = "def";
+    b["provenance"]["rerun"] = "sheer compare b.json";
+    a["device"]["load"] = {1, 2};
+    b["device"]["load"] = {1, 3};
     std::vector<std::string> pointers;
     const json differences = diff()["differences"];
     for (const json& one : differences) pointers.push_back(one["pointer"]);
-    EXPECT_THAT(pointers, ElementsAre("/spec/scene/newer", "/spec/timing/rounds", "/provenance/commit"));
+    EXPECT_THAT(pointers,
+                ElementsAre("/spec/scene/newer", "/spec/timing/rounds", "/device/load", "/provenance/commit"));
     EXPECT_EQ(differences[0], json({{"pointer", "/spec/scene/newer"}, {"a", nullptr}, {"b", 1}}));
     EXPECT_EQ(diff()["b"]["commit"], "def");
 }
