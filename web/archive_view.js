@@ -71,7 +71,9 @@ class Choice {
     const count = this.#chosen.size;
     this.#button.disabled = count !== 2;
     this.#text.textContent =
-      count === 2 ? "Two reports are chosen." : `Choose two done reports of one spec to see what changed; ${count} chosen.`;
+      count === 2
+        ? "Two reports are chosen."
+        : `Choose two done reports of one spec to see what changed; ${count} chosen.`;
   }
 }
 

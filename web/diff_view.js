@@ -47,9 +47,18 @@ function ratio_cell(judged, reason) {
 /** The first cell of a row: its name, by which its pictures are chosen. */
 function heading(row, on_show) {
   const name = row.picture
-    ? el("button", { type: "button", class: "link", title: "Show its pictures", onclick: () => on_show(row) }, row.label)
+    ? el(
+        "button",
+        { type: "button", class: "link", title: "Show its pictures", onclick: () => on_show(row) },
+        row.label,
+      )
     : row.label;
-  return el("th", { scope: "row" }, el("span", { class: "label" }, name), el("span", { class: "caption" }, row.caption));
+  return el(
+    "th",
+    { scope: "row" },
+    el("span", { class: "label" }, name),
+    el("span", { class: "caption" }, row.caption),
+  );
 }
 
 function picture_cells({ picture, missing }, decimals, on_pixel) {
@@ -108,7 +117,9 @@ function rows_of(run, baseline) {
       picture: result.picture,
       time: result.time,
       missing: ["a", "b"]
-        .map((side) => [`${side.toUpperCase()}: ${result.status[side]}`, result.reason?.[side]].filter(Boolean).join(", "))
+        .map((side) =>
+          [`${side.toUpperCase()}: ${result.status[side]}`, result.reason?.[side]].filter(Boolean).join(", "),
+        )
         .join("; "),
     })),
   ];
@@ -206,7 +217,11 @@ function side_facts(name, side) {
     el("h2", {}, name),
     el("a", { href: `#/reports/${encodeURIComponent(side.id)}` }, side.title || "Untitled comparison"),
     el("p", {}, when(side.created_at)),
-    el("p", { class: "muted" }, [side.renderer, `sheer ${side.version} ${side.commit ?? ""}`].filter(Boolean).join(" · ")),
+    el(
+      "p",
+      { class: "muted" },
+      [side.renderer, `sheer ${side.version} ${side.commit ?? ""}`].filter(Boolean).join(" · "),
+    ),
   );
 }
 
@@ -220,7 +235,13 @@ const TALLY = [
 ];
 
 function summary_list(summary) {
-  const tallies = TALLY.map(([group, verdict, noun, one, many, kind]) => [summary[group][verdict], noun, one, many, kind]);
+  const tallies = TALLY.map(([group, verdict, noun, one, many, kind]) => [
+    summary[group][verdict],
+    noun,
+    one,
+    many,
+    kind,
+  ]);
   tallies.push([summary.statuses_changed, "status", "changed", "changed", "bad"]);
   const plural = (noun) => (noun === "status" ? "statuses" : `${noun}s`);
   return el(

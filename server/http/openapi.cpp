@@ -40,10 +40,12 @@ json parameters_of(const Route& route) {
     for (const std::string& name : path_names(route.pattern))
         parameters.push_back({{"name", name}, {"in", "path"}, {"required", true}, {"schema", {{"type", "string"}}}});
     const json fields = schema_of(route.query);
+    const json required = fields.value("required", json::array());
     for (const Param& param : route.query)
         parameters.push_back({{"name", param.name},
                               {"in", "query"},
                               {"description", param.summary},
+                              {"required", std::ranges::find(required, json(param.name)) != required.end()},
                               {"schema", fields["properties"][param.name]}});
     for (const HeaderField& header : route.headers)
         parameters.push_back({{"name", header.name},

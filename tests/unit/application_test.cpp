@@ -333,6 +333,10 @@ TEST_F(ApplicationTest, TheOpenapiDocumentDescribesEveryCall) {
     const json& list = document["paths"]["/api/v1/reports"]["get"]["parameters"];
     EXPECT_EQ(list.size(), 7u);
     EXPECT_EQ(list[0]["schema"]["maximum"], 100);
+    EXPECT_EQ(list[0]["required"], false);
+    const json& diff = document["paths"]["/api/v1/reports/{id}/diff"]["get"]["parameters"];
+    EXPECT_EQ(diff[1]["name"], "against");
+    EXPECT_EQ(diff[1]["required"], true);
 }
 
 }  // namespace
