@@ -2,12 +2,8 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
-
+#include "server/worker/memory_file.h"
 #include "server/worker/run_child.h"
 
 namespace sheer {
@@ -15,35 +11,6 @@ namespace sheer {
 using nlohmann::json;
 
 namespace {
-
-[[noreturn]] void fail(const char* what) {
-    throw std::system_error(errno, std::generic_category(), what);
-}
-
-/// A file that is only in memory.
-class MemoryFile {
-  public:
-    explicit MemoryFile(const std::string& bytes) : m_descriptor(memfd_create("upload", MFD_CLOEXEC)) {
-        if (m_descriptor < 0) fail("memfd_create");
-        for (std::size_t done = 0; done < bytes.size();) {
-            const ssize_t count = write(m_descriptor, bytes.data() + done, bytes.size() - done);
-            if (count < 0 && errno == EINTR) continue;
-            if (count < 0) {
-                close(m_descriptor);
-                fail("write to memory");
-            }
-            done += static_cast<std::size_t>(count);
-        }
-    }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    ~MemoryFile() { close(m_descriptor); }
-
-    int descriptor() const { return m_descriptor; }
-
-  private:
-    int m_descriptor;
-};
 
 /// The child's one line: {"facts": {...}} or {"refusal": "..."}.
 UploadVerdict read_verdict(const std::string& line) {
@@ -57,7 +24,7 @@ UploadVerdict read_verdict(const std::string& line) {
 }  // namespace
 
 UploadVerdict check_upload(const std::string& bytes, const std::string& media_type, const UploadCheckOptions& options) {
-    const MemoryFile file(bytes);
+    const MemoryFile file("upload", bytes);
     std::string answer;
     ChildRun run;
     run.options.program = options.program;
