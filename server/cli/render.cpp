@@ -8,7 +8,6 @@
 #include "renderer/compare.h"
 #include "renderer/frame/target.h"
 #include "renderer/report/report.h"
-#include "server/archive/blob_store.h"
 #include "server/cli/commands.h"
 #include "server/cli/failure.h"
 #include "server/cli/rendering.h"
@@ -42,16 +41,6 @@ int probe(gl::Context& context) {
     context.check("the probe");
     if (quantize(read).rgb != std::vector<std::uint8_t>{0, 255, 0}) throw RenderError("the probe's pixel is not green");
     return exit_ok;
-}
-
-/// Uploaded files by their SHA-256, and nothing else.
-FileAssets::Resolver uploads_in(const std::filesystem::path& folder) {
-    return [folder](const std::string& name) {
-        if (folder.empty() || !is_sha256(name)) throw AssetError("this is not the SHA-256 of an uploaded file");
-        std::filesystem::path file = blob_path(folder, name);
-        if (!std::filesystem::exists(file)) throw AssetError("the asset with this SHA-256 is not there any more");
-        return file;
-    };
 }
 
 int run(const Options& options) {

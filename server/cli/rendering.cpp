@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "server/archive/blob_store.h"
 #include "server/cli/commands.h"
 
 namespace sheer::cli {
@@ -62,6 +63,15 @@ ReportFolder::~ReportFolder() {
 void ReportFolder::commit() {
     std::filesystem::remove_all(m_folder);
     std::filesystem::rename(m_partial, m_folder);
+}
+
+FileAssets::Resolver uploads_in(const std::filesystem::path& folder) {
+    return [folder](const std::string& name) {
+        if (folder.empty() || !is_sha256(name)) throw AssetError("this is not the SHA-256 of an uploaded file");
+        std::filesystem::path file = blob_path(folder, name);
+        if (!std::filesystem::exists(file)) throw AssetError("the asset with this SHA-256 is not there any more");
+        return file;
+    };
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {

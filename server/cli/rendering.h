@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "renderer/assets/file_assets.h"
 #include "renderer/gl/context.h"
 #include "renderer/spec/spec.h"
 
@@ -41,6 +42,9 @@ class ReportFolder {
   private:
     std::filesystem::path m_folder, m_partial;
 };
+
+/// Uploaded files by their SHA-256, and nothing else.
+FileAssets::Resolver uploads_in(const std::filesystem::path& folder);
 
 /// Throws std::runtime_error naming the file.
 void write_text(const std::filesystem::path& path, const std::string& text);
