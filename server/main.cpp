@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     int exit_code = sheer::cli::exit_ok;
     sheer::cli::add_compare(app, exit_code);
     sheer::cli::add_diff(app, exit_code);
+    sheer::cli::add_pixel(app, exit_code);
     sheer::cli::add_serve(app, exit_code);
     sheer::cli::add_view(app, exit_code);
     sheer::cli::add_catalog(app, exit_code);

@@ -3,7 +3,9 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace sheer {
 
@@ -77,6 +79,26 @@ Image8 decode_png(const std::string& bytes, int width_px, int height_px) {
     if (!input || !input->set_ioproxy(&memory) || !input->open("picture.png", spec))
         throw std::runtime_error("cannot read a picture: " + (input ? input->geterror() : OIIO::geterror()));
     return read_rgb(*input, "a picture");
+}
+
+std::array<double, 3> read_pixel(const std::string& bytes, int x, int y) {
+    const bool is_png = bytes.starts_with("\x89PNG");
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const auto input = OIIO::ImageInput::create(is_png ? "png" : "openexr");
+    if (!input) throw std::runtime_error("no reader for pictures: " + OIIO::geterror());
+    OIIO::ImageSpec spec;
+    if (!input->set_ioproxy(&memory) || !input->open("picture", spec))
+        throw std::runtime_error("cannot read a picture: " + input->geterror());
+    if (x < 0 || y < 0 || x >= spec.width || y >= spec.height || spec.nchannels < 3)
+        throw std::runtime_error("a picture has no such pixel");
+    std::vector<float> row(static_cast<std::size_t>(spec.width) * 3);
+    if (!input->read_scanlines(0, 0, y, y + 1, 0, 0, 3, OIIO::TypeDesc::FLOAT, row.data()))
+        throw std::runtime_error("cannot read a picture: " + input->geterror());
+    const float* pixel = &row[static_cast<std::size_t>(x) * 3];
+    std::array<double, 3> value{};
+    // 8 bits come as the nearest float; the level itself is exact.
+    for (std::size_t i = 0; i < 3; ++i) value[i] = is_png ? std::round(pixel[i] * 255.0) / 255.0 : double{pixel[i]};
+    return value;
 }
 
 }  // namespace sheer

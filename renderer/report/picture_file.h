@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 
 #include "renderer/frame/image.h"
@@ -18,5 +19,9 @@ Image8 read_png(const std::string& path);
 /// The same from bytes. Refuses, before anything is decoded, what is no PNG or has another size than the one expected:
 /// decoders believe the size that a header declares.
 Image8 decode_png(const std::string& bytes, int width_px, int height_px);
+
+/// Red, green and blue of one pixel, from the top left, of a PNG or OpenEXR file that Sheer wrote: 8-bit levels as
+/// fractions of 1, floats as they are. Throws std::runtime_error.
+std::array<double, 3> read_pixel(const std::string& bytes, int x, int y);
 
 }  // namespace sheer

@@ -16,6 +16,7 @@ void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, devices
 void add_diff(CLI::App& app, int& exit_code);
 void add_docs(CLI::App& app, int& exit_code);         ///< for ./dev docs; not shown in the help
 void add_gallery(CLI::App& app, int& exit_code);      ///< hidden: see ./dev gallery
+void add_pixel(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);       ///< the worker's child; not shown in the help
 void add_check_asset(CLI::App& app, int& exit_code);  ///< the service's child; not shown in the help
 void add_serve(CLI::App& app, int& exit_code);
