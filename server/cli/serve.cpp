@@ -40,6 +40,12 @@ SupervisorOptions supervisor_options(const ServiceConfig& config, const ServeOpt
     return supervised;
 }
 
+PixelOptions pixel_options(const ServiceConfig& config) {
+    return {.data = config.data,
+            .memory_limit_bytes = config.worker.memory_limit_bytes,
+            .time_limit = config.pixel_time_limit};
+}
+
 void serve(const ServeOptions& options) {
     // What a program may want to read is on standard output; the log is for people.
     spdlog::set_default_logger(spdlog::stderr_color_mt("serve"));
@@ -55,6 +61,10 @@ void serve(const ServeOptions& options) {
                           .check_upload =
                               [&config](const std::string& bytes, const std::string& media_type) {
                                   return check_upload(bytes, media_type, config.upload_check);
+                              },
+                          .take_pixel_apart =
+                              [&config](const std::string& report, const PixelPlace& place) {
+                                  return take_pixel_apart(report, place, pixel_options(config));
                               },
                           .max_asset_bytes = config.max_asset_bytes,
                           .max_checks = std::max(1, config.http.threads / 2),

@@ -61,6 +61,7 @@ std::vector<Param> worker_fields() {
     return {Param::integer("memory_limit_bytes", "address space of a renderer; 0 for no limit", "byte",
                            static_cast<long long>(8 * gibibyte), 0, 1024 * gibibyte),
             seconds("time_limit_s", "for one job", 1800, 7 * day_s),
+            seconds("pixel_time_limit_s", "for taking one pixel of a report apart", 60, 3600),
             seconds("poll_s", "between two looks into the queue", 0.15, 60),
             seconds("probe_interval_s", "between two probes of an idle worker", 30, day_s)};
 }
@@ -137,6 +138,7 @@ ServiceConfig read_service_config(const json& document) {
     config.worker.rules = config.leases;
     config.worker.memory_limit_bytes = read["worker"]["memory_limit_bytes"];
     config.worker.time_limit = ms_of(read["worker"]["time_limit_s"]);
+    config.pixel_time_limit = ms_of(read["worker"]["pixel_time_limit_s"]);
     config.worker.poll_interval = ms_of(read["worker"]["poll_s"]);
     config.worker.probe_interval = ms_of(read["worker"]["probe_interval_s"]);
     return config;

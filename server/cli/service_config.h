@@ -21,6 +21,7 @@ struct ServiceConfig {
     http::Limits http;
     std::size_t max_asset_bytes = 0;
     UploadCheckOptions upload_check;
+    std::chrono::milliseconds pixel_time_limit{};
     std::size_t max_queued = 0;
     std::chrono::seconds max_wait{};
     std::chrono::seconds ready_within{};

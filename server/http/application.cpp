@@ -92,8 +92,8 @@ Answer Application::handle(Request& request) const {
         throw Problem(405, fmt::format("{} is not allowed here; allowed are {}.", request.method, allow))
             .with("Allow", allow);
     request.path_values = std::move(match.path_values);
-    request.query =
-        read_query(question == std::string_view::npos ? "" : target.substr(question + 1), match.route->query);
+    request.query = read_query(question == std::string_view::npos ? "" : target.substr(question + 1),
+                               match.route->query, match.route->wrong_query_status);
     check_body_type(*match.route, request.headers.find("Content-Type"));
     return match.route->handle(request);
 }

@@ -24,9 +24,7 @@ constexpr const char* page_policy =
     "sandbox allow-scripts allow-downloads";
 
 ReportRecord found(Service& service, const Request& request) {
-    const auto record = service.store.find(request.path_values.at("id"));
-    if (!record) throw Problem(404, "There is no such report.");
-    return *record;
+    return found_report(service.store, request);
 }
 
 json finished_report(Service& service, const Request& request) {

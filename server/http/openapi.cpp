@@ -71,7 +71,9 @@ json operation_of(const Route& route) {
         response["description"] = reply.description;
         if (!reply.media_type.empty()) response["content"] = content(reply.media_type, reply.schema);
     }
-    if (!route.query.empty()) responses["400"] = error_reply("The query is wrong");
+    if (!route.query.empty())
+        responses["400"] =
+            error_reply(route.wrong_query_status == 400 ? "The query is wrong" : "The query cannot be read");
     if (!route.body_schema.empty() || !route.body_types.empty()) {
         operation["requestBody"] = request_body(route);
         if (!route.body_schema.empty()) responses["400"] = error_reply("The body is not JSON");
@@ -136,6 +138,50 @@ json list_schema() {
                          {"reports", "next_cursor"});
 }
 
+json color_schema() {
+    return {{"type", "array"}, {"items", nullable("number")}, {"minItems", 3}, {"maxItems", 3}};
+}
+
+/// See renderer/report/pixel.h.
+json pixel_schema() {
+    const json number = {{"type", "number"}}, count = nullable("integer");
+    json color_or_null = color_schema();
+    color_or_null["type"] = {"array", "null"};
+    const json fragment = object_schema({{"depth", number},
+                                         {"color", color_schema()},
+                                         {"alpha", number},
+                                         {"primitive", {{"type", "integer"}}},
+                                         {"transmittance_before", number},
+                                         {"weight", number}},
+                                        {"depth", "color", "alpha", "primitive", "transmittance_before", "weight"});
+    json opaque = object_schema({{"depth", number}, {"color", color_schema()}}, {"depth", "color"});
+    opaque["type"] = {"object", "null"};
+    json method =
+        object_schema({{"method", text_schema()},
+                       {"label", text_schema()},
+                       {"status", text_schema()},
+                       {"reason", nullable("string")},
+                       {"value", color_or_null},
+                       {"difference", color_or_null},
+                       {"shaded", count},
+                       {"needed", count},
+                       {"saturated_at", count}},
+                      {"method", "label", "status", "value", "difference", "shaded", "needed", "saturated_at"});
+    method["description"] = "a count that is not known is null, and <name>_reason says why";
+    return object_schema(
+        {{"x", {{"type", "integer"}}},
+         {"y", {{"type", "integer"}}},
+         {"point", {{"type", "object"}}},
+         {"background", color_schema()},
+         {"opaque", opaque},
+         {"fragments", {{"type", "array"}, {"items", fragment}}},
+         {"transmittance", number},
+         {"sum", color_schema()},
+         {"reference", {{"type", "object"}}},
+         {"methods", {{"type", "array"}, {"items", method}}}},
+        {"x", "y", "background", "opaque", "fragments", "transmittance", "sum", "reference", "methods"});
+}
+
 json asset_schema() {
     json properties = {{"bytes", {{"type", "integer"}}}, {"created_at", {{"type", "string"}, {"format", "date-time"}}}};
     for (const char* name : {"sha256", "type", "media_type", "name", "url"}) properties[name] = text_schema();
@@ -183,6 +229,7 @@ json schemas() {
     return {{"Spec", spec},
             {"Report", report_schema()},
             {"ReportList", list_schema()},
+            {"Pixel", pixel_schema()},
             {"Asset", asset_schema()},
             {"AssetList", asset_list_schema()},
             {"Diff", diff_schema()},
@@ -209,8 +256,8 @@ json openapi_document(const std::vector<Route>& routes) {
 
 Router make_router(Service& service) {
     Router router;
-    for (auto* routes :
-         {submit_routes, report_routes, diff_routes, archive_routes, asset_routes, catalog_routes, health_routes})
+    for (auto* routes : {submit_routes, report_routes, diff_routes, pixel_routes, archive_routes, asset_routes,
+                         catalog_routes, health_routes})
         router.add(routes(service));
     Route openapi{.method = "GET",
                   .pattern = "/api/v1/openapi.json",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "server/http/problem.h"
 #include "server/jobs/clock.h"
 
 namespace sheer::http {
@@ -21,6 +22,12 @@ json time_json(const std::optional<std::int64_t>& time_ms) {
 }
 
 }  // namespace
+
+ReportRecord found_report(Store& store, const Request& request) {
+    auto record = store.find(request.path_values.at("id"));
+    if (!record) throw Problem(404, "There is no such report.");
+    return std::move(*record);
+}
 
 std::string report_text(const ReportRecord& record) {
     if (record.status == Status::done) return record.report;

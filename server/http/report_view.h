@@ -8,6 +8,8 @@ namespace sheer::http {
 
 inline constexpr const char* reports_path = "/api/v1/reports";
 
+/// The report that the path's {id} names. Throws Problem (404).
+ReportRecord found_report(Store& store, const Request& request);
 /// The report as its readers see it: as committed when it is done, else what is known so far.
 std::string report_text(const ReportRecord& record);
 nlohmann::json summary_json(const ReportSummary& summary);

@@ -64,7 +64,7 @@ Match Router::match(std::string_view method, std::string_view path) const {
     return match;
 }
 
-json read_query(std::string_view query, const std::vector<Param>& fields) {
+json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status) {
     const auto pairs = query_pairs(query);
     if (!pairs) throw Problem(400, "The query has a broken percent escape.");
     json values = json::object();
@@ -74,7 +74,7 @@ json read_query(std::string_view query, const std::vector<Param>& fields) {
         values[name] = typed(text, fields, name);
     }
     json read_values = read_fields(values, "", fields, errors);
-    if (!errors.empty()) throw Problem(400, "The query is wrong.", errors);
+    if (!errors.empty()) throw Problem(wrong_status, "The query is wrong.", errors);
     return read_values;
 }
 

@@ -38,6 +38,7 @@ struct Route {
     Handler handle;
     std::vector<std::string> body_types;  ///< media types of a body that is not JSON
     std::uint64_t body_bytes = 0;         ///< longest body; 0: what the service allows any
+    int wrong_query_status = 400;         ///< what a query with wrong, missing or unknown fields is answered with
 };
 
 struct Match {
@@ -56,7 +57,8 @@ class Router {
     std::vector<Route> m_routes;
 };
 
-/// Reads `query` as `fields` describe it; numbers are given as text. Throws Problem (400) that names every wrong field.
-nlohmann::json read_query(std::string_view query, const std::vector<Param>& fields);
+/// Reads `query` as `fields` describe it; numbers are given as text. Throws Problem (`wrong_status`) that names every
+/// wrong field, or Problem (400) if it cannot be read at all.
+nlohmann::json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status = 400);
 
 }  // namespace sheer::http

@@ -7,6 +7,7 @@
 #include "server/jobs/clock.h"
 #include "server/jobs/report_id.h"
 #include "server/jobs/store.h"
+#include "server/worker/pixel_child.h"
 #include "server/worker/upload_check.h"
 
 namespace sheer::http {
@@ -20,6 +21,8 @@ struct Service {
     std::function<nlohmann::json()> list_devices;
     /// Reads an upload whole; see check_upload.
     std::function<UploadVerdict(const std::string& bytes, const std::string& media_type)> check_upload;
+    /// Takes a pixel of a done report apart; see worker/pixel_child.h.
+    std::function<PixelAnswer(const std::string& report, const PixelPlace& place)> take_pixel_apart;
     std::size_t max_asset_bytes = std::size_t{64} << 20;
     int max_checks = 2;  ///< uploads that are read at a time
     int max_diffs = 2;   ///< diffs of reports that are made at a time
@@ -32,6 +35,7 @@ struct Service {
 std::vector<Route> submit_routes(Service& service);   ///< POST /reports, /specs/validate
 std::vector<Route> report_routes(Service& service);   ///< one report
 std::vector<Route> diff_routes(Service& service);     ///< two reports held against each other
+std::vector<Route> pixel_routes(Service& service);    ///< one pixel of a report
 std::vector<Route> archive_routes(Service& service);  ///< the list of reports, the pictures
 std::vector<Route> asset_routes(Service& service);    ///< uploaded files
 std::vector<Route> catalog_routes(Service& service);  ///< /methods, /scenes, /devices

@@ -303,6 +303,35 @@ TEST_F(ApplicationTest, OurOwnFaultsAreNotExplainedToTheClient) {
     EXPECT_EQ(std::get<std::string>(blob.body).find("archive"), std::string::npos);
 }
 
+TEST_F(ApplicationTest, APixelIsTakenApartInTheRunThatIsAskedFor) {
+    PixelAnswer answer{.json = R"({"x": 3})", .refusal = ""};
+    std::vector<int> asked;
+    m_service.take_pixel_apart = [&](const std::string& report, const PixelPlace& place) {
+        EXPECT_EQ(json::parse(report)["runs"].size(), 2u);
+        asked = {place.x, place.y, place.run};
+        return answer;
+    };
+    const std::string id = body(post(m_spec))["id"];
+    const std::string pixel = "/api/v1/reports/" + id + "/pixel";
+    EXPECT_EQ(get(pixel + "?x=0&y=0").status, 409) << "not done";
+    const Lease job = lease();
+    FinishedReport report = finished(job, "picture");
+    report.report["spec"] = {{"image", {{"width", 4}, {"height", 8}}}};
+    report.report["runs"] = {{{"point", json::object()}}, {{"point", {{"/image/width", 6}}}}};
+    m_store.commit(job, report);
+    EXPECT_EQ(body(get(pixel + "?x=5&y=7&run=1"))["x"], 3);
+    EXPECT_EQ(asked, (std::vector{5, 7, 1}));
+    const Response outside = get(pixel + "?x=5&y=8");
+    EXPECT_EQ(outside.status, 422);
+    EXPECT_THAT(pointers(outside), testing::ElementsAre("/x", "/y"));
+    EXPECT_THAT(pointers(get(pixel + "?y=a")), testing::UnorderedElementsAre("/x", "/y"));
+    EXPECT_EQ(get("/api/v1/reports/none/pixel?x=0&y=0").status, 404);
+    answer = {.json = "", .refusal = "its model is gone"};
+    EXPECT_EQ(get(pixel + "?x=0&y=0").status, 409);
+    answer.too_slow = true;
+    EXPECT_EQ(get(pixel + "?x=0&y=0").status, 503);
+}
+
 /// Every "$ref" in `value`.
 void collect_references(const json& value, std::vector<std::string>& references) {
     if (value.is_object() && value.contains("$ref")) references.push_back(value["$ref"]);
@@ -324,7 +353,7 @@ TEST_F(ApplicationTest, TheOpenapiDocumentDescribesEveryCall) {
         calls += !of_page;
     }
     EXPECT_EQ(described, calls);
-    EXPECT_EQ(calls, 23u);
+    EXPECT_EQ(calls, 24u);
     std::vector<std::string> references;
     collect_references(document["paths"], references);
     EXPECT_FALSE(references.empty());

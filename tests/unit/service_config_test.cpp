@@ -45,6 +45,7 @@ TEST(ServiceConfigTest, TheShippedFileSaysTheDefaults) {
     EXPECT_EQ(shipped.upload_check.memory_limit_bytes, defaults.upload_check.memory_limit_bytes);
     EXPECT_EQ(shipped.upload_check.time_limit, defaults.upload_check.time_limit);
     EXPECT_EQ(shipped.worker.memory_limit_bytes, defaults.worker.memory_limit_bytes);
+    EXPECT_EQ(shipped.pixel_time_limit, defaults.pixel_time_limit);
     EXPECT_EQ(shipped.worker.poll_interval, defaults.worker.poll_interval);
 }
 
