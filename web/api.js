@@ -87,6 +87,11 @@ export async function get_diff(id, against, run, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}/diff?${query}`, { signal })).body;
 }
 
+/** A pixel taken apart; `place` is {x, y, run}. */
+export async function get_pixel(id, place, signal) {
+  return (await call(`/reports/${encodeURIComponent(id)}/pixel?${new URLSearchParams(place)}`, { signal })).body;
+}
+
 export async function delete_report(id) {
   await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" });
 }

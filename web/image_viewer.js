@@ -7,6 +7,7 @@ import { Viewport } from "./viewport.js";
 const KEYS =
   "Drag to pan, double-click to zoom in and out. Ctrl and wheel, or the wheel alone after a click, zooms. " +
   "Keys: arrows pan, Shift and arrows move the pixel mark, + and − zoom, 0 fits, 1 is 100 %.";
+const PICK_KEYS = " A click, or Enter at the mark, takes a pixel apart.";
 const INSPECT_ZOOM = 16;
 const SLIDER_HEIGHT_SHARE = 0.8;
 const MIN_SLIDER_PX = 320;
@@ -37,6 +38,7 @@ export class ImageViewer {
   #pane_size = "medium";
   #pair;
   #split = 0.5;
+  #on_pick;
   #hint_id = unique_id("keys");
   #stage = el("div", { class: "stage" });
   #readout = el("span", { class: "readout" });
@@ -52,9 +54,10 @@ export class ImageViewer {
   /**
    * `sources`: [{key, label, pictures: {kind: url}, missing}], the reference first; `kinds`: [{key, label, note}],
    * the first is what the reference has too. A source without pictures says why in `missing`; the reference may have
-   * another `name`.
+   * another `name`. `on_pick(x, y)` hears which pixel is chosen by a click or by Enter; null where nothing comes of it.
    */
-  constructor({ width_px, height_px, sources, kinds }) {
+  constructor({ width_px, height_px, sources, kinds, on_pick = null }) {
+    this.#on_pick = on_pick;
     this.#sources = sources;
     this.#kinds = kinds;
     this.#kind = kinds[0].key;
@@ -70,7 +73,7 @@ export class ImageViewer {
       this.#note,
       this.#stage,
       this.#missing,
-      el("p", { class: "keys-hint", id: this.#hint_id }, KEYS),
+      el("p", { class: "keys-hint", id: this.#hint_id }, KEYS + (on_pick ? PICK_KEYS : "")),
       this.#announcer,
     );
     this.#build();
@@ -228,6 +231,7 @@ export class ImageViewer {
     const pane = new PicturePane(this.#viewport, {
       label: alt,
       hint_id: this.#hint_id,
+      on_pick: this.#on_pick,
       on_resize: () => this.#show_zoom(),
     });
     this.#set_shape(pane.element);
@@ -243,6 +247,7 @@ export class ImageViewer {
     const pane = new PicturePane(this.#viewport, {
       label: `${chosen[0].label} left of the line, ${chosen[1].label} right of it`,
       hint_id: this.#hint_id,
+      on_pick: this.#on_pick,
       on_resize: () => this.#show_zoom(),
       on_split: (fraction) => {
         this.#split = fraction;

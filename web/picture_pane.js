@@ -5,6 +5,8 @@ import { PixelReader } from "./pixel_reader.js";
 const MARK_MIN_PX = 7;
 const INSPECT_ZOOM = 8;
 const KEY_PAN_SHARE = 0.1;
+const CLICK_SLACK_PX = 3;
+const DOUBLE_CLICK_MS = 250;
 
 function picture(url, alt, viewport) {
   const [width, height] = viewport.size;
@@ -19,12 +21,16 @@ export class PicturePane {
   #divider = null;
   #drag = null;
   #split = 0.5;
+  #on_pick;
+  #picking = null;
+  #pressed_at = null;
 
   /**
    * `hint_id` is the id of the text that explains the keys. `on_split(fraction)` hears of the line's
-   * moves, `on_resize()` of a new size.
+   * moves, `on_resize()` of a new size, `on_pick(x, y)` of a pixel that was clicked or chosen by Enter.
    */
-  constructor(viewport, { label, hint_id, on_split = () => {}, on_resize = () => {} }) {
+  constructor(viewport, { label, hint_id, on_split = () => {}, on_resize = () => {}, on_pick = null }) {
+    this.#on_pick = on_pick;
     this.#viewport = viewport;
     this.on_split = on_split;
     this.#view = el("div", {
@@ -158,7 +164,7 @@ export class PicturePane {
     view.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       view.focus({ preventScroll: true });
-      this.#drag = [event.clientX, event.clientY];
+      this.#drag = this.#pressed_at = [event.clientX, event.clientY];
       view.setPointerCapture(event.pointerId);
     });
     view.addEventListener("pointermove", (event) => {
@@ -173,7 +179,9 @@ export class PicturePane {
         this.#drag = null;
       });
     view.addEventListener("pointerleave", () => this.#viewport.set_cursor(null));
+    view.addEventListener("click", (event) => this.#click(event));
     view.addEventListener("dblclick", (event) => {
+      clearTimeout(this.#picking);
       if (!this.#viewport.fits) this.#viewport.fit();
       else this.#viewport.zoom_to(INSPECT_ZOOM, this.size, ...this.#pixel_at(event));
     });
@@ -190,6 +198,16 @@ export class PicturePane {
     view.addEventListener("keydown", (event) => this.#key(event));
   }
 
+  /** Of a double click, which zooms, nothing is picked; nor at the end of a drag. */
+  #click(event) {
+    clearTimeout(this.#picking);
+    const [x, y] = this.#pressed_at ?? [Infinity, Infinity];
+    const dragged = Math.hypot(event.clientX - x, event.clientY - y) > CLICK_SLACK_PX;
+    if (!this.#on_pick || dragged || event.detail > 1) return;
+    const pixel = this.#pixel_at(event).map(Math.floor);
+    if (this.#viewport.contains(pixel)) this.#picking = setTimeout(() => this.#on_pick(...pixel), DOUBLE_CLICK_MS);
+  }
+
   #key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -202,6 +220,7 @@ export class PicturePane {
     else if (event.key === "-") this.#viewport.step(-1, this.size);
     else if (event.key === "0") this.#viewport.fit();
     else if (event.key === "1") this.#viewport.zoom_to(1, this.size);
+    else if (event.key === "Enter" && this.#on_pick && this.#viewport.cursor) this.#on_pick(...this.#viewport.cursor);
     else return;
     event.preventDefault();
   }

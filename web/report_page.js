@@ -1,5 +1,5 @@
 // A report at #/reports/{id}: its progress while it is made, then the report itself.
-import { delete_report, follow, get_methods, get_metrics, get_report, report_path } from "./api.js";
+import { delete_report, follow, get_methods, get_metrics, get_pixel, get_report, report_path } from "./api.js";
 import { el, set_children } from "./dom.js";
 import { error_text, report_view, scene_text } from "./report_view.js";
 import { keep_draft } from "./spec_model.js";
@@ -67,7 +67,13 @@ async function show_settled(main, report) {
     const [methods, metrics] = await Promise.all([get_methods().catch(() => []), get_metrics().catch(() => [])]);
     set_children(
       main,
-      report_view(report, { picture_url: (image) => image.url, methods, metrics, actions: actions(main, report) }),
+      report_view(report, {
+        picture_url: (image) => image.url,
+        methods,
+        metrics,
+        actions: actions(main, report),
+        load_pixel: (place, signal) => get_pixel(report.id, place, signal),
+      }),
     );
     return;
   }

@@ -4,6 +4,7 @@ import { el, set_children } from "./dom.js";
 import { fixed, is_number, short_value, when, words } from "./format.js";
 import { frontier_section } from "./frontier_view.js";
 import { ImageViewer } from "./image_viewer.js";
+import { PixelView } from "./pixel_view.js";
 import { difference_table, fragment_table, timing_table } from "./result_tables.js";
 import { suite_section } from "./suite_view.js";
 import { axes_of, point_text } from "./sweep.js";
@@ -219,13 +220,16 @@ function linear_links(run, picture_url) {
 }
 
 function run_part(report, run, options) {
-  const { methods, metrics, picture_url } = options;
+  const { methods, metrics, picture_url, load_pixel } = options;
+  const index = report.runs.indexOf(run);
+  const pixel = load_pixel ? new PixelView((x, y, signal) => load_pixel({ x, y, run: index }, signal)) : null;
   const { width, height } = run_size(report, run);
   const viewer = new ImageViewer({
     width_px: width,
     height_px: height,
     sources: sources_of(run, picture_url),
     kinds: kinds_of(run, metrics),
+    on_pick: pixel ? (x, y) => pixel.show(x, y) : null,
   });
   const context = {
     methods,
@@ -242,6 +246,7 @@ function run_part(report, run, options) {
   return [
     report.runs.length > 1 ? facts([["Reference", reference_text(run)]]) : null,
     viewer.element,
+    pixel?.element,
     linear_links(run, picture_url),
     report.device?.software ? [fragments, frontier_section(run), times] : [frontier_section(run), times, fragments],
     difference_table(run.results, context),
@@ -302,10 +307,11 @@ function origin(report) {
 
 /**
  * `options`: `picture_url(image)` gives the address of an image object or null, `methods` and `metrics` are their
- * descriptions (may be empty), `actions` are elements for the line under the head.
+ * descriptions (may be empty), `actions` are elements for the line under the head; `load_pixel({x, y, run}, signal)`
+ * takes a pixel apart, and where it is missing that is not offered.
  */
-export function report_view(report, { picture_url, methods = [], metrics = [], actions = [] }) {
-  const options = { picture_url, methods, metrics };
+export function report_view(report, { picture_url, methods = [], metrics = [], actions = [], load_pixel = null }) {
+  const options = { picture_url, methods, metrics, load_pixel };
   const runs = report.runs ?? [];
   const place = el("div", { class: "run" });
   const show = (run) =>

@@ -92,10 +92,13 @@ export class Viewport extends EventTarget {
     this.#inspect();
   }
 
+  contains([x, y]) {
+    return x >= 0 && y >= 0 && x < this.#width && y < this.#height;
+  }
+
   /** Marks a pixel, or none with null. */
   set_cursor(pixel) {
-    const inside = pixel && pixel[0] >= 0 && pixel[1] >= 0 && pixel[0] < this.#width && pixel[1] < this.#height;
-    this.#cursor = inside ? pixel : null;
+    this.#cursor = pixel && this.contains(pixel) ? pixel : null;
     this.dispatchEvent(new Event("cursor"));
   }
 
