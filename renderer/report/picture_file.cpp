@@ -3,6 +3,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -38,6 +39,14 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
     return value;
 }
 
+std::string encode_floats(int width_px, int height_px, int channels, const float* values) {
+    OIIO::ImageSpec spec(width_px, height_px, channels, OIIO::TypeDesc::FLOAT);
+    spec.attribute("compression", "zip");
+    // Without a date the writer takes the time of day, and the same pixels would be other bytes each time.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    return encode("openexr", spec, OIIO::TypeDesc::FLOAT, values);
+}
+
 }  // namespace
 
 std::string encode_png(const Image8& image) {
@@ -53,11 +62,12 @@ std::string encode_jpeg(const Image8& image) {
 }
 
 std::string encode_exr(const Image& image) {
-    OIIO::ImageSpec spec(image.width_px, image.height_px, 4, OIIO::TypeDesc::FLOAT);
-    spec.attribute("compression", "zip");
-    // Without a date the writer takes the time of day, and the same pixels would be other bytes each time.
-    spec.attribute("DateTime", "1970:01:01 00:00:00");
-    return encode("openexr", spec, OIIO::TypeDesc::FLOAT, image.rgba.data());
+    return encode_floats(image.width_px, image.height_px, 4, image.rgba.data());
+}
+
+std::string encode_exr(const PixelCounts& counts) {
+    const std::vector<float> values(counts.counts.begin(), counts.counts.end());
+    return encode_floats(counts.width_px, counts.height_px, 1, values.data());
 }
 
 Image8 read_png(const std::string& path) {
@@ -89,15 +99,15 @@ std::array<double, 3> read_pixel(const std::string& bytes, int x, int y) {
     OIIO::ImageSpec spec;
     if (!input->set_ioproxy(&memory) || !input->open("picture", spec))
         throw std::runtime_error("cannot read a picture: " + input->geterror());
-    if (x < 0 || y < 0 || x >= spec.width || y >= spec.height || spec.nchannels < 3)
-        throw std::runtime_error("a picture has no such pixel");
-    std::vector<float> row(static_cast<std::size_t>(spec.width) * 3);
-    if (!input->read_scanlines(0, 0, y, y + 1, 0, 0, 3, OIIO::TypeDesc::FLOAT, row.data()))
+    if (x < 0 || y < 0 || x >= spec.width || y >= spec.height) throw std::runtime_error("a picture has no such pixel");
+    const int channels = std::min(spec.nchannels, 3);
+    std::vector<float> row(static_cast<std::size_t>(spec.width) * channels);
+    if (!input->read_scanlines(0, 0, y, y + 1, 0, 0, channels, OIIO::TypeDesc::FLOAT, row.data()))
         throw std::runtime_error("cannot read a picture: " + input->geterror());
-    const float* pixel = &row[static_cast<std::size_t>(x) * 3];
+    const float* pixel = &row[static_cast<std::size_t>(x) * channels];
     std::array<double, 3> value{};
     // 8 bits come as the nearest float; the level itself is exact.
-    for (std::size_t i = 0; i < 3; ++i) value[i] = is_png ? std::round(pixel[i] * 255.0) / 255.0 : double{pixel[i]};
+    for (int i = 0; i < channels; ++i) value[i] = is_png ? std::round(pixel[i] * 255.0) / 255.0 : double{pixel[i]};
     return value;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "renderer/frame/image.h"
+#include "renderer/frame/pixel_counts.h"
 
 namespace sheer {
 
@@ -12,6 +13,8 @@ std::string encode_png(const Image8& image);
 std::string encode_jpeg(const Image8& image);
 /// OpenEXR of 32-bit floats, RGBA, ZIP-compressed: the values as the method left them. Equal pictures are equal bytes.
 std::string encode_exr(const Image& image);
+/// OpenEXR of 32-bit floats, one channel: each count as it is, up to 2^24.
+std::string encode_exr(const PixelCounts& counts);
 
 /// Reads a PNG file that Sheer or a test wrote; not for files from outside. Throws std::runtime_error naming the file.
 Image8 read_png(const std::string& path);
@@ -21,7 +24,7 @@ Image8 read_png(const std::string& path);
 Image8 decode_png(const std::string& bytes, int width_px, int height_px);
 
 /// Red, green and blue of one pixel, from the top left, of a PNG or OpenEXR file that Sheer wrote: 8-bit levels as
-/// fractions of 1, floats as they are. Throws std::runtime_error.
+/// fractions of 1, floats as they are; channels that the file does not have are 0. Throws std::runtime_error.
 std::array<double, 3> read_pixel(const std::string& bytes, int x, int y);
 
 }  // namespace sheer

@@ -14,8 +14,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::uint32_t most_counts_told_apart = 255;
-
 json fragment_json(const PixelFragment& fragment) {
     return {{"depth", fragment.depth},
             {"color", fragment.color},
@@ -31,7 +29,7 @@ std::uint32_t count_of(const Rgb& color, std::uint32_t full_scale) {
     for (std::size_t i = 0; i < 3; ++i) wanted[i] = static_cast<std::uint8_t>(std::lround(color[i] * 255));
     const auto level = static_cast<std::uint32_t>(std::ranges::find(magma(), wanted) - magma().begin());
     if (level == magma().size()) throw std::runtime_error("a picture of counts has a colour that stands for none");
-    return (level * full_scale + most_counts_told_apart / 2) / most_counts_told_apart;
+    return (level * full_scale + most_counts_in_colours / 2) / most_counts_in_colours;
 }
 
 class PixelWriter {
@@ -102,7 +100,11 @@ class PixelWriter {
             return;
         }
         const auto full_scale = images[picture].at("full_scale").get<std::uint32_t>();
-        if (full_scale > most_counts_told_apart) {
+        if (images.contains(picture + "_counts")) {
+            object[key] = std::lround(value_in(images[picture + "_counts"])[0]);
+            return;
+        }
+        if (full_scale > most_counts_in_colours) {
             object[reason] = fmt::format("the report's picture has 256 colours for counts of 0 to {}", full_scale);
             return;
         }

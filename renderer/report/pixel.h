@@ -15,7 +15,8 @@ using PictureReader = std::function<std::string(const nlohmann::json& image)>;
 /// std::runtime_error for pictures that cannot be read.
 ///
 /// Values are red, green, blue as in the picture, 0..1 where nothing is over; `difference` is the exact sum minus the
-/// value, as in the metric `signed`. Counts come from the report's pictures of counts, which tell them apart up to 255.
+/// value, as in the metric `signed`. Counts come from the report's pictures of counts; null, with a reason, where these
+/// cannot tell them apart.
 nlohmann::json pixel_report(const PixelStack& stack, int x, int y, const nlohmann::json& run,
                             const PictureReader& read_picture);
 

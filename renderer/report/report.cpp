@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "renderer/frame/magma.h"
 #include "renderer/report/frontier.h"
 #include "renderer/report/measured.h"
 #include "renderer/report/picture_file.h"
@@ -189,10 +190,16 @@ class RunWriter {
     json count_images(const MethodResult& result, const std::string& name) const {
         json images = json::object();
         if (!m_overdraw.is_null()) images["overdraw"] = m_overdraw;
-        if (result.fragments.shaded)
-            images["shaded"] = count_image(*result.fragments.shaded, file_name(name) + ".shaded.png");
-        if (result.fragments.saturation)
-            images["saturation"] = count_image(*result.fragments.saturation, file_name(name) + ".saturation.png");
+        const auto add = [&](const std::string& key, const std::optional<PixelCounts>& counts) {
+            if (!counts) return;
+            images[key] = count_image(*counts, fmt::format("{}.{}.png", file_name(name), key));
+            // A picture of 256 colours cannot tell more counts apart.
+            if (count_scale() > most_counts_in_colours)
+                images[key + "_counts"] =
+                    put(encode_exr(*counts), fmt::format("{}.{}.exr", file_name(name), key), "image/x-exr");
+        };
+        add("shaded", result.fragments.shaded);
+        add("saturation", result.fragments.saturation);
         return images;
     }
 

@@ -133,6 +133,23 @@ TEST_F(PixelReportTest, CountsThatCannotBeToldApartAreNotGuessed) {
     }
 }
 
+/// Where a report has colours for fewer counts than there are, it has the counts as well.
+TEST_F(PixelReportTest, GreatCountsHaveAPictureOfTheirOwn) {
+    json images = {{"color", color_image("color", {0, 0, 0}, false)}};
+    PixelCounts counts{width_px, height_px, std::vector<std::uint32_t>(6, 0)};
+    for (const std::uint32_t count : {0u, 255u, 1001u, 1002u, 70'001u}) {
+        counts.counts[y * width_px + x] = count;
+        for (const std::string key : {"shaded", "saturation"}) {
+            images[key] = count_image(key, count, 70'001);
+            images[key + "_counts"] = put(key + "_counts", encode_exr(counts));
+        }
+        const json method = report_of(json::array({result("f2bd", {{"threshold", 0.1}}, images)}))["methods"][0];
+        EXPECT_EQ(method["shaded"], count);
+        EXPECT_EQ(method["needed"], count == 0 ? 2 : count);
+        EXPECT_EQ(method["saturated_at"], count == 0 ? json() : json(count));
+    }
+}
+
 TEST_F(PixelReportTest, AMethodThatDidNotRunSaysWhy) {
     json one = result("meshkin", json::object(), json::object());
     one["status"] = "unsupported";

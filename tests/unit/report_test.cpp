@@ -279,6 +279,15 @@ TEST_F(ReportFixture, PicturesHaveNamesAndHashesOfTheirBytes) {
     EXPECT_TRUE(sink.bytes_by_name.contains("reference-exact.linear.exr"));
 }
 
+TEST_F(ReportFixture, CountsBeyondTheColoursAreThereAsNumbers) {
+    EXPECT_FALSE(report()["runs"][0]["results"][1]["images"].contains("shaded_counts"));
+    runs[0].results[1].fragments.shaded->counts[0] = 300;
+    const json images = report()["runs"][0]["results"][1]["images"];
+    EXPECT_EQ(images["shaded"]["full_scale"], 300);
+    EXPECT_EQ(images["shaded_counts"]["media_type"], "image/x-exr");
+    EXPECT_EQ(read_pixel(sink.bytes_by_name.at("2-F2BD--1-.shaded.exr"), 0, 0), (std::array<double, 3>{300, 0, 0}));
+}
+
 TEST_F(ReportFixture, LinearPicturesDoNotHoldTheTimeOfDay) {
     EXPECT_THAT(encode_exr(Image(2, 1)), HasSubstr("1970:01:01 00:00:00"));
 }
