@@ -245,10 +245,14 @@ class Comparer {
         for (std::size_t i = 0; i < m_contenders.size(); ++i) {
             if (!m_contenders[i].result) continue;
             MethodResult& result = *m_contenders[i].result;
-            step(metrics_begin, 1, i, m_contenders.size(), "measuring " + result.method.label);
+            const auto say = [&](const char* what) {
+                step(metrics_begin, 1, i, m_contenders.size(), what + result.method.label);
+            };
             result.no_metrics_reason = find_method(result.method.id)->no_metrics_reason;
             if (!result.no_metrics_reason.empty()) continue;
+            say("rendering over other backgrounds ");
             const Backdrops over = over_backdrops(*m_contenders[i].method, target, result.image);
+            say("measuring ");
             result.metrics = compute_metrics(run.reference_image, result.image, &m_reference_over, &over);
         }
         m_context.check("rendering over other backgrounds");
