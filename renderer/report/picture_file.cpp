@@ -85,9 +85,10 @@ Image8 decode_png(const std::string& bytes, int width_px, int height_px) {
         throw std::runtime_error("a picture has another size than its report says");
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
     const auto input = OIIO::ImageInput::create("png");
+    if (!input) throw std::runtime_error("no reader for PNG: " + OIIO::geterror());
     OIIO::ImageSpec spec;
-    if (!input || !input->set_ioproxy(&memory) || !input->open("picture.png", spec))
-        throw std::runtime_error("cannot read a picture: " + (input ? input->geterror() : OIIO::geterror()));
+    if (!input->set_ioproxy(&memory) || !input->open("picture.png", spec))
+        throw std::runtime_error("cannot read a picture: " + input->geterror());
     return read_rgb(*input, "a picture");
 }
 
