@@ -1,10 +1,9 @@
 #include <gmock/gmock.h>
 
-#include <map>
-
 #include "renderer/errors.h"
 #include "renderer/report/diff.h"
 #include "renderer/report/picture_file.h"
+#include "tests/unit/map_sink.h"
 
 namespace sheer {
 namespace {
@@ -12,17 +11,6 @@ namespace {
 using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// Keeps what it is given.
-class MapSink : public BlobSink {
-  public:
-    std::map<std::string, std::string> bytes_by_name;
-    std::string put(const std::string&, const std::string& bytes, const std::string& name,
-                    const std::string&) override {
-        bytes_by_name[name] = bytes;
-        return "there/" + name;
-    }
-};
 
 /// Two reports of 4 x 2 black pixels, with the methods b2f (the baseline), f2b and f2bd.
 class ReportDiff : public testing::Test {

@@ -6,9 +6,9 @@
 
 #include <fstream>
 #include <limits>
-#include <map>
 
 #include "renderer/report/picture_file.h"
+#include "tests/unit/map_sink.h"
 
 namespace sheer {
 
@@ -22,17 +22,6 @@ TEST(Sha256, OfKnownTexts) {
     EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
-
-/// Keeps what it is given.
-class MapSink : public BlobSink {
-  public:
-    std::map<std::string, std::string> bytes_by_name;
-    std::string put(const std::string&, const std::string& bytes, const std::string& name,
-                    const std::string&) override {
-        bytes_by_name[name] = bytes;
-        return "there/" + name;
-    }
-};
 
 gl::FrameSample sample(double wall_ms, double gpu_ms) {
     return {wall_ms,
