@@ -6,9 +6,9 @@ foreach(file ${FILES})
   file(RELATIVE_PATH path ${ROOT} ${file})
   file(READ ${file} bytes HEX)
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
-  string(APPEND arrays "constexpr unsigned char file_${number}[] = {${bytes}0};\n")
+  string(APPEND arrays "constexpr unsigned char ${NAME}_${number}[] = {${bytes}0};\n")
   string(APPEND rows
-         "    {\"${path}\", {reinterpret_cast<const char*>(file_${number}), sizeof(file_${number}) - 1}},\n")
+         "    {\"${path}\", {reinterpret_cast<const char*>(${NAME}_${number}), sizeof(${NAME}_${number}) - 1}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUTPUT}

@@ -24,10 +24,12 @@ bool clocks_agree(const FrameSample& sample) {
     return std::abs(sample.gpu_ms - sample.wall_ms) <= clock_tolerance * sample.wall_ms;
 }
 
+}  // namespace
+
 /// Where the stamps of `flush-timer-queries` are rasterised. The begin of a query is stamped per tile of the
 /// framebuffer that the driver saw in use last, which may have no tile at all: then there is no stamp, and the result
 /// is the time since the machine started. A clear of this one makes it the last, and leaves GL's own binding alone.
-class StampTarget {
+class FrameTimer::StampTarget {
   public:
     explicit StampTarget(const Functions& gl) : m_gl(gl), m_color(make_texture_2d(gl, "timer stamps", GL_RGBA8, 1, 1)) {
         const std::array colors{m_color.id()};
@@ -44,8 +46,6 @@ class StampTarget {
     Texture m_color;
     Framebuffer m_framebuffer;
 };
-
-}  // namespace
 
 struct FrameTimer::State {
     explicit State(const Functions& functions) : gl(functions) {}

@@ -56,6 +56,7 @@ class FrameTimer {
     FrameSample end_frame();
 
   private:
+    class StampTarget;
     struct State;
     void end_pass();
     std::unique_ptr<State> m_state;

@@ -21,14 +21,14 @@ namespace {
 constexpr std::int64_t node_bytes = 28;      // colour 16, depth 4, primitive 4, next 4
 constexpr std::int64_t loop_budget = 40000;  // iterations in one pass, under llvmpipe's 65,535
 
-struct Tile {
+struct ScreenTile {
     int x0, y0, x1, y1;
     int width() const { return x1 - x0; }
     int height() const { return y1 - y0; }
 };
 
 /// Halves `tile` until the fragments of each part fit.
-void divide(const PixelCounts& overdraw, Tile tile, std::uint64_t capacity, std::vector<Tile>& tiles) {
+void divide(const PixelCounts& overdraw, ScreenTile tile, std::uint64_t capacity, std::vector<ScreenTile>& tiles) {
     const std::uint64_t fragments = overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1);
     if (fragments == 0) return;
     if (fragments <= capacity) {
@@ -40,9 +40,9 @@ void divide(const PixelCounts& overdraw, Tile tile, std::uint64_t capacity, std:
                           std::to_string(capacity));
     const bool wide = tile.width() >= tile.height();
     const int middle = wide ? tile.x0 + tile.width() / 2 : tile.y0 + tile.height() / 2;
-    divide(overdraw, wide ? Tile{tile.x0, tile.y0, middle, tile.y1} : Tile{tile.x0, tile.y0, tile.x1, middle}, capacity,
+    divide(overdraw, wide ? ScreenTile{tile.x0, tile.y0, middle, tile.y1} : ScreenTile{tile.x0, tile.y0, tile.x1, middle}, capacity,
            tiles);
-    divide(overdraw, wide ? Tile{middle, tile.y0, tile.x1, tile.y1} : Tile{tile.x0, middle, tile.x1, tile.y1}, capacity,
+    divide(overdraw, wide ? ScreenTile{middle, tile.y0, tile.x1, tile.y1} : ScreenTile{tile.x0, middle, tile.x1, tile.y1}, capacity,
            tiles);
 }
 
@@ -66,7 +66,7 @@ class LinkedLists : public Method {
         const bool first = !m_nodes;
         if (first) prepare(timer);
         m_opaque.draw(timer);
-        for (const Tile& tile : m_tiles) {
+        for (const ScreenTile& tile : m_tiles) {
             build(tile, timer);
             if (first) require_all_kept(tile);
             sort_and_composite(tile, timer);
@@ -99,7 +99,7 @@ class LinkedLists : public Method {
                               std::to_string(loop_budget));
         divide(m_overdraw, {0, 0, m_target.width_px(), m_target.height_px()}, m_capacity, m_tiles);
         std::uint64_t most_nodes = 1, most_pixels = 1;
-        for (const Tile& tile : m_tiles) {
+        for (const ScreenTile& tile : m_tiles) {
             most_nodes = std::max(most_nodes, counted_in(tile));
             most_pixels = std::max(most_pixels, static_cast<std::uint64_t>(tile.width()) * tile.height());
         }
@@ -110,10 +110,10 @@ class LinkedLists : public Method {
         m_memory_bytes = nodes_bytes + heads_bytes;
     }
 
-    std::uint64_t counted_in(const Tile& tile) const { return m_overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1); }
+    std::uint64_t counted_in(const ScreenTile& tile) const { return m_overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1); }
 
     /// Each fragment takes a number, also one that finds no room any more.
-    void require_all_kept(const Tile& tile) {
+    void require_all_kept(const ScreenTile& tile) {
         std::uint32_t drawn = 0;
         m_gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
         m_gl.GetNamedBufferSubData(m_heads.id(), 0, sizeof drawn, &drawn);
@@ -123,7 +123,7 @@ class LinkedLists : public Method {
         m_kept += drawn;
     }
 
-    void begin_tile_pass(const Tile& tile) const {
+    void begin_tile_pass(const ScreenTile& tile) const {
         begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
         m_gl.Enable(GL_SCISSOR_TEST);
         m_gl.Scissor(tile.x0, tile.y0, tile.width(), tile.height());
@@ -132,13 +132,13 @@ class LinkedLists : public Method {
         m_gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     }
 
-    static void set_tile(const gl::Program& program, const Tile& tile) {
+    static void set_tile(const gl::Program& program, const ScreenTile& tile) {
         program.set("u_tile_x", tile.x0);
         program.set("u_tile_y", tile.y0);
         program.set("u_tile_width", tile.width());
     }
 
-    void build(const Tile& tile, gl::FrameTimer& timer) const {
+    void build(const ScreenTile& tile, gl::FrameTimer& timer) const {
         const auto pass = timer.pass("build", gl::Phase::transparent);
         begin_tile_pass(tile);
         const std::uint32_t zero = 0;
@@ -149,7 +149,7 @@ class LinkedLists : public Method {
         m_scene.draw_transparent(m_build, Order::submission);
     }
 
-    void sort_and_composite(const Tile& tile, gl::FrameTimer& timer) const {
+    void sort_and_composite(const ScreenTile& tile, gl::FrameTimer& timer) const {
         const auto pass = timer.pass("resolve", gl::Phase::finalization);
         set_tile(m_sort.program(), tile);
         // One merge of all runs walks a list about one and a half times.
@@ -179,7 +179,7 @@ class LinkedLists : public Method {
     PixelCounts m_overdraw;
     std::uint64_t m_kept = 0;
     std::uint32_t m_longest = 0;
-    std::vector<Tile> m_tiles;
+    std::vector<ScreenTile> m_tiles;
     gl::Buffer m_nodes, m_heads;
     std::int64_t m_memory_bytes = 0;
 };

@@ -18,7 +18,7 @@ namespace sheer {
 
 namespace {
 
-constexpr GLuint unit_opaque = first_method_texture_unit, unit_mask = unit_opaque + 1, unit_foliage = unit_opaque + 2;
+constexpr GLuint opaque_unit = first_method_texture_unit, mask_unit = opaque_unit + 1, foliage_unit = opaque_unit + 2;
 
 class ScreenSpaceAlphaMask : public Method {
   public:
@@ -124,9 +124,9 @@ class ScreenSpaceAlphaMask : public Method {
     void composite() const {
         begin(m_target.framebuffer());
         m_gl.TextureBarrier();
-        m_gl.BindTextureUnit(unit_opaque, m_target.color().id());
-        m_gl.BindTextureUnit(unit_mask, m_mask.id());
-        m_gl.BindTextureUnit(unit_foliage, m_foliage.id());
+        m_gl.BindTextureUnit(opaque_unit, m_target.color().id());
+        m_gl.BindTextureUnit(mask_unit, m_mask.id());
+        m_gl.BindTextureUnit(foliage_unit, m_foliage.id());
         m_composite.draw();
     }
 

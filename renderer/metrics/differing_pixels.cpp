@@ -5,7 +5,7 @@
 namespace sheer {
 namespace {
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_differing_pixels(const ImagePair& pair) {
     const std::uint8_t* one = pair.reference8.rgb.data();
     const std::uint8_t* two = pair.test8.rgb.data();
     std::uint64_t count = 0;
@@ -23,7 +23,7 @@ MetricInfo metric_differing_pixels() {
             "Count of unequal pixels",
             "",
             {{"", "pixels", "0..width*height", "Number of pixels that differ"}},
-            compute};
+            compute_differing_pixels};
 }
 
 }  // namespace sheer

@@ -15,9 +15,9 @@ namespace {
 
 /// Order statistics of values in 0..1 in linear time and exactly: such floats are ordered as their bits are, so a
 /// histogram of the upper 16 bits finds the bin and one of the lower 16 bits in that bin finds the value.
-class Distribution {
+class ErrorDistribution {
   public:
-    explicit Distribution(const std::vector<float>& values) : m_values(values), m_count(bins), m_sum(bins) {
+    explicit ErrorDistribution(const std::vector<float>& values) : m_values(values), m_count(bins), m_sum(bins) {
         for (const float value : values) {
             const auto bin = std::bit_cast<std::uint32_t>(value) >> 16;
             ++m_count[bin];
@@ -85,9 +85,9 @@ Image8 coloured(const std::vector<float>& map, int width, int height) {
     return picture;
 }
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_flip(const ImagePair& pair) {
     const std::vector<float> map = flip_map(pair.reference8, pair.test8);
-    const Distribution distribution(map);
+    const ErrorDistribution distribution(map);
     return {{{"mean", distribution.mean()},
              {"weighted_median", distribution.weighted(0.5)},
              {"weighted_q1", distribution.weighted(0.25)},
@@ -115,7 +115,7 @@ MetricInfo metric_flip() {
          {"max", "", "0..1", "Greatest value of any pixel"},
          {"p95", "", "0..1", "95th percentile of the pixels, nearest rank"},
          {"p99", "", "0..1", "99th percentile of the pixels, nearest rank"}},
-        compute};
+        compute_flip};
 }
 
 }  // namespace sheer

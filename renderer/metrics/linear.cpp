@@ -6,7 +6,7 @@
 namespace sheer {
 namespace {
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_linear(const ImagePair& pair) {
     const FloatErrors errors = float_errors(pair.reference, pair.test);
     if (!errors.finite())
         return {{{"mean_abs", nullptr},
@@ -31,7 +31,7 @@ MetricInfo metric_linear() {
         {{"mean_abs", "", "0..", "Mean absolute difference"},
          {"rmse", "", "0..", "Root mean square error"},
          {"max_abs", "", "0..", "Greatest absolute difference of a channel"}},
-        compute};
+        compute_linear};
 }
 
 }  // namespace sheer

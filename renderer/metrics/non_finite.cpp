@@ -12,7 +12,7 @@ std::uint32_t non_finite(float value) {
     return (std::bit_cast<std::uint32_t>(value) & 0x7f800000u) == 0x7f800000u;
 }
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_non_finite(const ImagePair& pair) {
     const float* rgba = pair.test.rgba.data();
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < pair.test.pixel_count(); ++i, rgba += 4)
@@ -31,7 +31,7 @@ MetricInfo metric_non_finite() {
             "IEEE 754 classification",
             "",
             {{"", "pixels", "0..width*height", "Number of pixels with a NaN or an infinity"}},
-            compute};
+            compute_non_finite};
 }
 
 }  // namespace sheer

@@ -41,7 +41,7 @@ nlohmann::json nothing(const std::string& reason) {
             {"white", nullptr}, {"checker", nullptr}, {"reason", reason}};
 }
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_over_backgrounds(const ImagePair& pair) {
     if (!pair.reference_over || !pair.test_over)
         return {nothing("the pictures over black and white were not rendered"), std::nullopt};
     const std::array<Named, 3> all = errors_over(*pair.reference_over, *pair.test_over);
@@ -78,7 +78,7 @@ MetricInfo metric_over_backgrounds() {
              {"black", "", "0..", "Root mean square error over black"},
              {"white", "", "0..", "Root mean square error over white"},
              {"checker", "", "0..", "Root mean square error over the checker"}},
-            compute};
+            compute_over_backgrounds};
 }
 
 }  // namespace sheer

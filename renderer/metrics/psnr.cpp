@@ -9,7 +9,7 @@
 namespace sheer {
 namespace {
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_psnr(const ImagePair& pair) {
     const double mean_square = level_errors(pair.reference8, pair.test8).mean_square();
     if (mean_square == 0) return {nullptr, std::nullopt};
     return {-10 * std::log10(mean_square), std::nullopt};
@@ -26,7 +26,7 @@ MetricInfo metric_psnr() {
         "Huynh-Thu and Ghanbari, Scope of Validity of PSNR in Image/Video Quality Assessment, Electronics Letters 2008",
         "",
         {{"", "dB", "0..", "Peak signal-to-noise ratio; null where identical"}},
-        compute};
+        compute_psnr};
 }
 
 }  // namespace sheer

@@ -8,7 +8,7 @@
 namespace sheer {
 namespace {
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_rmse(const ImagePair& pair) {
     return {std::sqrt(level_errors(pair.reference8, pair.test8).mean_square()), std::nullopt};
 }
 
@@ -21,7 +21,7 @@ MetricInfo metric_rmse() {
             "Textbook statistic: square root of the mean of squared differences",
             "",
             {{"", "", "0..1", "Root mean square error"}},
-            compute};
+            compute_rmse};
 }
 
 }  // namespace sheer

@@ -32,7 +32,7 @@ Image8 draw(const Image8& reference, const Image8& test) {
     return picture;
 }
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_signed(const ImagePair& pair) {
     const LevelErrors errors = level_errors(pair.reference8, pair.test8);
     return {{{"mean_abs", double(errors.sum_of_absolutes) / double(errors.count)},
              {"min", errors.min},
@@ -54,7 +54,7 @@ MetricInfo metric_signed() {
         {{"mean_abs", "levels", "0..255", "Mean of the absolute differences"},
          {"min", "levels", "-255..255", "Smallest difference: where the method is too bright"},
          {"max", "levels", "-255..255", "Greatest difference: where the method is too dark"}},
-        compute};
+        compute_signed};
 }
 
 }  // namespace sheer

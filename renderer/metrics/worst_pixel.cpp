@@ -7,7 +7,7 @@
 namespace sheer {
 namespace {
 
-MetricValue compute(const ImagePair& pair) {
+MetricValue compute_worst_pixel(const ImagePair& pair) {
     const std::uint8_t* one = pair.reference8.rgb.data();
     const std::uint8_t* two = pair.test8.rgb.data();
     int worst = 0;
@@ -34,7 +34,7 @@ MetricInfo metric_worst_pixel() {
         "Greatest L1 distance per pixel",
         "",
         {{"", "px", "[0..width-1, 0..height-1]", "Position of the worst pixel; null where identical", false}},
-        compute};
+        compute_worst_pixel};
 }
 
 }  // namespace sheer

@@ -53,7 +53,7 @@ std::string picture_table(const json& run) {
     return aligned(rows);
 }
 
-std::string time_table(const json& run) {
+std::string change_table(const json& run) {
     std::vector<TableRow> rows = {{"time", "A ms", "B ms", "A / B [95 %]", "to baseline [95 %]", "B is"}};
     std::string reasons;
     for (const json& result : run["results"]) {
@@ -99,7 +99,7 @@ std::string diff_table(const json& diff) {
                  : "Different devices: B is faster or slower by its time alone.\n";
     for (const json& run : diff["runs"]) {
         if (!run["point"].empty()) lines += "\nAt " + describe_point(run["point"]);
-        lines += fmt::format("\n{}{}", picture_table(run), time_table(run));
+        lines += fmt::format("\n{}{}", picture_table(run), change_table(run));
     }
     return lines + conclusion(diff);
 }

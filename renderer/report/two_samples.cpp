@@ -8,7 +8,7 @@ namespace sheer {
 
 namespace {
 
-constexpr double error_rate = 0.05;
+constexpr double two_sample_error_rate = 0.05;
 constexpr std::size_t max_exact_pairs = 1000;
 
 /// P(U = u) of sets of m and n values. The greatest value of all is of the first set with the probability m / (m + n),
@@ -94,7 +94,7 @@ RatioOfSamples ratio_of_samples(const std::vector<double>& a, const std::vector<
 
 Speedup judge_two_samples(const std::vector<double>& a, const std::vector<double>& b, std::size_t compared,
                           double noise_factor) {
-    const RatioOfSamples ratio = ratio_of_samples(a, b, error_rate / static_cast<double>(compared));
+    const RatioOfSamples ratio = ratio_of_samples(a, b, two_sample_error_rate / static_cast<double>(compared));
     return judge_ratio(ratio.value, ratio.ci95, noise_factor);
 }
 

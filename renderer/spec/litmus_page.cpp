@@ -22,7 +22,7 @@ on the CPU in double precision; all is rendered with `rgba32f`, with default par
 |---|---|
 )";
 
-std::string text_of(const json& object, const char* key) {
+std::string string_at(const json& object, const char* key) {
     return object.at(key).get<std::string>();
 }
 
@@ -33,21 +33,21 @@ bool is_about(const json& row, const std::string& scene) {
 
 std::string expectation(const json& entry, const std::string& scene) {
     for (const json& row : entry.at("rows"))
-        if (is_about(row, scene)) return text_of(row, "expect");
+        if (is_about(row, scene)) return string_at(row, "expect");
     return "";
 }
 
 std::string table(const json& litmus) {
     std::string header = "| method |", line = "|---|";
     for (const json& scene : litmus.at("scenes")) {
-        header += fmt::format(" {} |", text_of(scene, "name"));
+        header += fmt::format(" {} |", string_at(scene, "name"));
         line += "---|";
     }
     std::string text = fmt::format("\n{}\n{}\n", header, line);
     for (const json& entry : litmus.at("methods")) {
-        text += fmt::format("| {} |", text_of(entry, "name"));
+        text += fmt::format("| {} |", string_at(entry, "name"));
         for (const json& scene : litmus.at("scenes")) {
-            const bool passes = expectation(entry, text_of(scene, "id")) == "passes";
+            const bool passes = expectation(entry, string_at(scene, "id")) == "passes";
             text += passes ? " passes |" : " **fails** |";
         }
         text += "\n";
@@ -59,17 +59,17 @@ std::string table(const json& litmus) {
 std::string scene_names(const json& litmus, const json& row) {
     std::vector<std::string> names;
     for (const json& scene : litmus.at("scenes"))
-        if (is_about(row, text_of(scene, "id"))) names.push_back(text_of(scene, "name"));
+        if (is_about(row, string_at(scene, "id"))) names.push_back(string_at(scene, "name"));
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string reasons(const json& litmus, const json& entry) {
     std::vector<std::string> variants;
     for (const json& variant : entry.at("variants")) variants.push_back(fmt::format("`{}`", variant.dump()));
-    std::string text = fmt::format("\n### {}\nTested as {}.\n\n", text_of(entry, "name"), fmt::join(variants, ", "));
+    std::string text = fmt::format("\n### {}\nTested as {}.\n\n", string_at(entry, "name"), fmt::join(variants, ", "));
     for (const json& row : entry.at("rows"))
-        text += fmt::format("- {}: **{}**, because {}.\n", scene_names(litmus, row), text_of(row, "expect"),
-                            text_of(row, "why"));
+        text += fmt::format("- {}: **{}**, because {}.\n", scene_names(litmus, row), string_at(row, "expect"),
+                            string_at(row, "why"));
     return text;
 }
 
@@ -78,7 +78,7 @@ std::string reasons(const json& litmus, const json& entry) {
 std::string litmus_page(const json& litmus) {
     std::string page = head;
     for (const json& scene : litmus.at("scenes"))
-        page += fmt::format("| {} | {} |\n", text_of(scene, "name"), text_of(scene, "what"));
+        page += fmt::format("| {} | {} |\n", string_at(scene, "name"), string_at(scene, "what"));
     page += fmt::format("\n## Which method passes which\n{}\n## Why\n", table(litmus));
     for (const json& entry : litmus.at("methods")) page += reasons(litmus, entry);
     return page;

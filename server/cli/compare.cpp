@@ -19,7 +19,7 @@ namespace sheer::cli {
 
 namespace {
 
-struct Options {
+struct CompareArguments {
     std::string spec, suite, out, junit;
     double scale = 1;
     gl::ContextRequest context;
@@ -63,7 +63,7 @@ class NoSink : public BlobSink {
     }
 };
 
-Spec read_spec(const Options& options) {
+Spec read_spec(const CompareArguments& options) {
     if (options.suite.empty() && options.spec.empty()) throw UsageError("give a SPEC.json or a --suite");
     if (options.suite.empty()) return load_spec(options.spec);
     const Suite* suite = find_suite(options.suite);
@@ -82,7 +82,7 @@ std::string quoted(const std::string& text) {
     return word + "'";
 }
 
-std::string rerun(const Options& options, const Device& device) {
+std::string rerun(const CompareArguments& options, const Device& device) {
     std::string command = "sheer compare ";
     command += options.suite.empty() ? quoted(options.spec)
                                      : fmt::format("--suite {} --scale {}", options.suite, options.scale);
@@ -96,7 +96,7 @@ std::unique_ptr<BlobSink> make_sink(const std::optional<ReportFolder>& folder) {
     return std::make_unique<NoSink>();
 }
 
-int run(const Options& options) {
+int run_compare(const CompareArguments& options) {
     const std::string created_at = utc_now();
     const Spec spec = read_spec(options);
     std::optional<ReportFolder> folder;
@@ -133,7 +133,7 @@ int run(const Options& options) {
 
 void add_compare(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("compare", "Render a comparison here and print its table");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareArguments>();
     CLI::Option* spec = command->add_option("spec", options->spec, "The spec, a JSON file (see configs/specs)");
     CLI::Option* suite =
         command->add_option("--suite", options->suite, "Repeat a published measurement instead: see sheer suites");
@@ -144,7 +144,7 @@ void add_compare(CLI::App& app, int& exit_code) {
     command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
     command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
     add_context_options(*command, options->context);
-    command->callback([options, &exit_code] { exit_code = guarded([&] { return run(*options); }); });
+    command->callback([options, &exit_code] { exit_code = guarded([&] { return run_compare(*options); }); });
 }
 
 }  // namespace sheer::cli

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-struct Options {
+struct DiffArguments {
     std::string a, b, out;
     bool as_json = false;
 };
@@ -54,7 +54,7 @@ json diff(const ReportFile& a, const ReportFile& b, const DiffOptions& options) 
     }
 }
 
-int run(const Options& options) {
+int run_diff(const DiffArguments& options) {
     const ReportFile a(options.a), b(options.b);
     std::optional<ReportFolder> folder;
     if (!options.out.empty()) folder.emplace(options.out, "diff.json");
@@ -75,12 +75,12 @@ int run(const Options& options) {
 
 void add_diff(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("diff", "Say what changed from one report to another one of the same spec");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DiffArguments>();
     command->add_option("a", options->a, "The report before: report.json, or the folder of compare --out")->required();
     command->add_option("b", options->b, "The report after")->required();
     command->add_option("--out", options->out, "Folder for diff.json and the FLIP maps of the pictures that differ");
     command->add_flag("--json", options->as_json, "Print JSON instead of a table");
-    command->callback([options, &exit_code] { exit_code = guarded([&] { return run(*options); }); });
+    command->callback([options, &exit_code] { exit_code = guarded([&] { return run_diff(*options); }); });
 }
 
 }  // namespace sheer::cli

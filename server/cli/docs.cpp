@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DocsArguments {
     std::string folder;
     bool check = false;
 };
@@ -21,7 +21,7 @@ bool is_up_to_date(const fs::path& path, const std::string& text) {
     return fs::is_regular_file(path) && read_text(path) == text;
 }
 
-int run(const Options& options) {
+int run_docs(const DocsArguments& options) {
     const fs::path folder = options.folder;
     const auto litmus = nlohmann::json::parse(read_text(folder / "tests/render/litmus.json"));
     int exit_code = exit_ok;
@@ -44,10 +44,10 @@ int run(const Options& options) {
 
 void add_docs(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("docs", "Write the documents that are made from the source")->group("");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DocsArguments>();
     command->add_option("folder", options->folder, "The repository")->required()->check(CLI::ExistingDirectory);
     command->add_flag("--check", options->check, "Write nothing; exit with 1 if one is out of date");
-    command->callback([options, &exit_code] { exit_code = guarded([&] { return run(*options); }); });
+    command->callback([options, &exit_code] { exit_code = guarded([&] { return run_docs(*options); }); });
 }
 
 }  // namespace sheer::cli

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr int size_px = 128, gap_px = 6, label_px = 22, left_px = 120;
 
-struct Options {
+struct GalleryArguments {
     std::vector<std::string> specs;
     std::string out, thumbnails;
     gl::ContextRequest context;
@@ -86,7 +86,7 @@ class Sheet {
     int m_rows = 0, m_columns = 0;
 };
 
-int run(const Options& options) {
+int run_gallery(const GalleryArguments& options) {
     const auto context = gl::create_context(options.context);
     if (!options.thumbnails.empty()) fs::create_directories(options.thumbnails);
     Sheet sheet;
@@ -112,12 +112,12 @@ int run(const Options& options) {
 
 void add_gallery(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("gallery", "One picture of every method on the scenes of specs")->group("");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<GalleryArguments>();
     command->add_option("specs", options->specs, "Specs, a row each")->required();
     command->add_option("--out", options->out, "The SVG file")->required();
     command->add_option("--thumbnails", options->thumbnails, "Folder for a PNG of each scene type");
     add_context_options(*command, options->context);
-    command->callback([options, &exit_code] { exit_code = guarded([&] { return run(*options); }); });
+    command->callback([options, &exit_code] { exit_code = guarded([&] { return run_gallery(*options); }); });
 }
 
 }  // namespace sheer::cli

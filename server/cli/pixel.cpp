@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct PixelArguments {
     std::string file, base, data;
     int x = 0, y = 0, run = 0;
     bool as_json = false;
@@ -44,7 +44,7 @@ class MemorySink : public BlobSink {
 /// What is given: a report with its pictures, or a spec to make them from.
 class Subject {
   public:
-    explicit Subject(const Options& options) : m_options(options) {
+    explicit Subject(const PixelArguments& options) : m_options(options) {
         if (!std::filesystem::exists(file())) throw UsageError("there is no file " + file().string());
         const json document = json::parse(read_text(file()), nullptr, false);
         if (document.is_discarded()) throw UsageError(file().string() + " is not JSON");
@@ -114,19 +114,19 @@ class Subject {
         return maker.finish()["runs"][0];
     }
 
-    const Options& m_options;
+    const PixelArguments& m_options;
     bool m_is_report = false;
     Spec m_spec;
     json m_runs;
 };
 
-int print_pixel(const Options& options) {
+int print_pixel(const PixelArguments& options) {
     fmt::print("{}", pixel_table(Subject(options).take_apart()));
     return exit_ok;
 }
 
 /// One line, also for what went wrong.
-int print_json(const Options& options) {
+int print_json(const PixelArguments& options) {
     json line;
     int exit_code = exit_ok;
     try {
@@ -149,7 +149,7 @@ int print_json(const Options& options) {
 void add_pixel(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("pixel", "Show every fragment under a pixel and what the methods made of it");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<PixelArguments>();
     command
         ->add_option("file", options->file, "A report: its folder or report.json; or a spec, which is rendered first")
         ->required();

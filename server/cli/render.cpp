@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct RenderArguments {
     std::string spec, out, assets;
     bool probe = false;
     gl::ContextRequest context;
@@ -43,7 +43,7 @@ int probe(gl::Context& context) {
     return exit_ok;
 }
 
-int run(const Options& options) {
+int run_render(const RenderArguments& options) {
     try {
         if (options.probe) return probe(*gl::create_context(options.context));
         const std::string created_at = utc_now();
@@ -73,13 +73,13 @@ int run(const Options& options) {
 
 void add_render(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("render", "Render one job for a worker")->group("");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderArguments>();
     command->add_option("spec", options->spec, "The spec, a JSON file");
     command->add_option("--out", options->out, "Folder for report.json and the pictures, named by content");
     command->add_option("--assets", options->assets, "Folder of the uploaded files, named by content");
     command->add_flag("--probe", options->probe, "Render one pixel and nothing else");
     add_context_options(*command, options->context);
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_render(*options); });
 }
 
 }  // namespace sheer::cli

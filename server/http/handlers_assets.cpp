@@ -68,7 +68,7 @@ Answer post_asset(Service& service, std::atomic<int>& checks, const Request& req
     return asset_response(201, *added);
 }
 
-Asset found(Service& service, const Request& request) {
+Asset found_asset(Service& service, const Request& request) {
     const std::string sha256 = request.path_values.at("sha256");
     const auto asset = is_sha256(sha256) ? service.store.find_asset(sha256) : std::nullopt;
     if (!asset) throw Problem(404, "There is no such asset.");
@@ -76,7 +76,7 @@ Asset found(Service& service, const Request& request) {
 }
 
 Answer get_asset(Service& service, const Request& request) {
-    const Asset asset = found(service, request);
+    const Asset asset = found_asset(service, request);
     Response response{.status = 200, .headers = {}, .body = asset.path};
     response.headers.add("Content-Type", asset.media_type);
     response.headers.add("ETag", fmt::format("\"{}\"", asset.sha256));

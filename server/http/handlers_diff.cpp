@@ -19,7 +19,6 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t max_id_bytes = 200;
-constexpr std::uintmax_t max_picture_bytes = std::uintmax_t{512} << 20;
 // Of pictures that a request may decode: some ten seconds of work.
 constexpr std::uint64_t max_pixels = 64'000'000;
 

@@ -14,7 +14,7 @@ constexpr const char* policy =
     "default-src 'self'; img-src 'self' data: blob:; style-src 'self'; script-src 'self'; connect-src 'self'; "
     "object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 
-std::string media_type_of(std::string_view path) {
+std::string media_type_of_path(std::string_view path) {
     static const std::map<std::string_view, const char*> types{{"html", "text/html; charset=utf-8"},
                                                                {"js", "text/javascript; charset=utf-8"},
                                                                {"mjs", "text/javascript; charset=utf-8"},
@@ -30,7 +30,7 @@ std::string media_type_of(std::string_view path) {
 }
 
 Route file_route(std::string pattern, const EmbeddedFile& file) {
-    Response response = text_response(200, std::string(file.bytes), media_type_of(file.path));
+    Response response = text_response(200, std::string(file.bytes), media_type_of_path(file.path));
     const std::string hash = sha256_hex(std::string(file.bytes));
     response.headers.add("ETag", fmt::format("\"{}\"", hash.substr(0, 32)));
     response.headers.add("Cache-Control", "no-cache");

@@ -15,20 +15,18 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::uintmax_t max_picture_bytes = std::uintmax_t{512} << 20;
-
 // The page carries its own style, scripts and pictures; the sandbox keeps it from acting under the service's origin.
 constexpr const char* page_policy =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' data:; "
     "frame-ancestors 'self'; "
     "sandbox allow-scripts allow-downloads";
 
-ReportRecord found(Service& service, const Request& request) {
+ReportRecord found_report(Service& service, const Request& request) {
     return found_report(service.store, request);
 }
 
 json finished_report(Service& service, const Request& request) {
-    const ReportRecord record = found(service, request);
+    const ReportRecord record = found_report(service, request);
     if (record.status != Status::done)
         throw Problem(409, fmt::format("The report is not done: it is {}.", status_text(record.status)));
     return json::parse(record.report);
@@ -58,9 +56,9 @@ Answer delete_report(Service& service, const Request& request) {
         case RemoveResult::deleted:
             return Response{.status = 204, .headers = {}, .body = {}};
         case RemoveResult::cancelled:
-            return report_response(200, found(service, request));
+            return report_response(200, found_report(service, request));
         case RemoveResult::cancelling:
-            return report_response(202, found(service, request));
+            return report_response(202, found_report(service, request));
     }
     throw Problem(404, "There is no such report.");
 }
@@ -75,7 +73,7 @@ std::int64_t last_event_id(const Request& request) {
 /// The events say how things are, not how they came to be: their ids are revisions, and a reader that was away gets one
 /// event for all it missed.
 Answer get_events(Service& service, const Request& request) {
-    const ReportRecord record = found(service, request);
+    const ReportRecord record = found_report(service, request);
     const std::int64_t last_id = last_event_id(request);
     // This tells an EventSource not to come again.
     if (is_final(record.status) && record.revision <= last_id)
@@ -115,7 +113,7 @@ std::vector<Route> report_routes(Service& service) {
     return {
         route("GET", "", "getReport", "A report, also while it is queued or running",
               {{200, "The report", "application/json", "Report"}},
-              [&service](const Request& request) { return report_response(200, found(service, request)); }),
+              [&service](const Request& request) { return report_response(200, found_report(service, request)); }),
         std::move(events),
         route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
               {{200, "The page", "text/html", ""}, not_done},

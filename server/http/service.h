@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "server/worker/upload_check.h"
 
 namespace sheer::http {
+
+/// The most that is read of one picture of a report.
+inline constexpr std::uintmax_t max_picture_bytes = std::uintmax_t{512} << 20;
 
 /// What the handlers need.
 struct Service {

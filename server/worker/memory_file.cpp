@@ -10,14 +10,14 @@ namespace sheer {
 
 namespace {
 
-[[noreturn]] void fail(const char* what) {
+[[noreturn]] void fail_memory_file(const char* what) {
     throw std::system_error(errno, std::generic_category(), what);
 }
 
 }  // namespace
 
 MemoryFile::MemoryFile(const char* name, const std::string& bytes) : m_descriptor(memfd_create(name, MFD_CLOEXEC)) {
-    if (m_descriptor < 0) fail("memfd_create");
+    if (m_descriptor < 0) fail_memory_file("memfd_create");
     for (std::size_t done = 0; done < bytes.size();) {
         const ssize_t count = write(m_descriptor, bytes.data() + done, bytes.size() - done);
         if (count < 0 && errno == EINTR) continue;
@@ -25,7 +25,7 @@ MemoryFile::MemoryFile(const char* name, const std::string& bytes) : m_descripto
             const int error = errno;
             close(m_descriptor);
             errno = error;
-            fail("write to memory");
+            fail_memory_file("write to memory");
         }
         done += static_cast<std::size_t>(count);
     }

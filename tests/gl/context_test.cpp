@@ -4,7 +4,7 @@
 
 #include "tests/gl/gl_test.h"
 
-namespace sheer::gl {
+namespace sheer::gl::context_test {
 namespace {
 
 using testing::HasSubstr;
@@ -187,4 +187,4 @@ TEST(DeviceInfo, ToJson) {
 }
 
 }  // namespace
-}  // namespace sheer::gl
+}  // namespace sheer::gl::context_test

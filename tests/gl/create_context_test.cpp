@@ -5,7 +5,7 @@
 #include "tests/gl/gl_test.h"
 
 // Which of several devices is chosen, on machines that this one is not.
-namespace sheer::gl {
+namespace sheer::gl::create_context_test {
 namespace {
 
 using testing::HasSubstr;
@@ -146,4 +146,4 @@ TEST(ChooseDevice, SoftwareIsToldFromAGpu) {
 }
 
 }  // namespace
-}  // namespace sheer::gl
+}  // namespace sheer::gl::create_context_test

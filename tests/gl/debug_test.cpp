@@ -1,7 +1,7 @@
 #include "renderer/gl/timer.h"
 #include "tests/gl/gl_test.h"
 
-namespace sheer::gl {
+namespace sheer::gl::debug_test {
 namespace {
 
 using testing::AllOf;
@@ -96,4 +96,4 @@ TEST_P(EachDebugContext, ALoopOfErrorsDoesNotFillTheMemory) {
 }
 
 }  // namespace
-}  // namespace sheer::gl
+}  // namespace sheer::gl::debug_test

@@ -4,7 +4,7 @@
 
 #include "tests/gl/gl_test.h"
 
-namespace sheer::gl {
+namespace sheer::gl::functions_test {
 namespace {
 
 void* some_address() {
@@ -43,4 +43,4 @@ TEST(LoadFunctions, AsksForEachNameOnce) {
 }
 
 }  // namespace
-}  // namespace sheer::gl
+}  // namespace sheer::gl::functions_test

@@ -9,7 +9,7 @@
 
 #include "tests/gl/gl_test.h"
 
-namespace sheer::gl {
+namespace sheer::gl::objects_test {
 namespace {
 
 using testing::AllOf;
@@ -241,4 +241,4 @@ TEST(ShaderFile, NamesAMissingFile) {
 }
 
 }  // namespace
-}  // namespace sheer::gl
+}  // namespace sheer::gl::objects_test

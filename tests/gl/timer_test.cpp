@@ -6,7 +6,7 @@
 
 #include "tests/gl/gl_test.h"
 
-namespace sheer::gl {
+namespace sheer::gl::timer_test {
 namespace {
 
 using testing::HasSubstr;
@@ -207,4 +207,4 @@ TEST_P(EachTimer, WithoutTheWorkaroundTheClocksDisagree) {
 }
 
 }  // namespace
-}  // namespace sheer::gl
+}  // namespace sheer::gl::timer_test

@@ -5,7 +5,7 @@
 
 #include "tests/gl/gl_test.h"
 
-namespace sheer::gl {
+namespace sheer::gl::workarounds_test {
 namespace {
 
 using testing::ElementsAre;
@@ -56,4 +56,4 @@ TEST(Workarounds, AnUnknownNameIsRefusedWithTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace sheer::gl
+}  // namespace sheer::gl::workarounds_test

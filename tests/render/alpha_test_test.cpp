@@ -1,7 +1,7 @@
 // What alpha testing keeps and drops.
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::alpha_test_test {
 
 namespace {
 
@@ -51,4 +51,4 @@ TEST(AlphaTest, SubmissionDoesNotMatter) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::alpha_test_test

@@ -3,7 +3,7 @@
 
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::alpha_to_coverage_test {
 
 namespace {
 
@@ -130,4 +130,4 @@ TEST_F(AlphaToCoverage, LeavesNothingBehind) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::alpha_to_coverage_test

@@ -7,7 +7,7 @@
 #include "renderer/frame/overdraw.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::autopsy_test {
 
 namespace {
 
@@ -240,4 +240,4 @@ TEST(Autopsy, TooManyFragmentsAreRefused) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::autopsy_test

@@ -4,7 +4,7 @@
 #include "renderer/compare.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::backgrounds_test {
 
 namespace {
 
@@ -116,4 +116,4 @@ TEST(Backgrounds, RestartedMethodsAreAsNew) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::backgrounds_test

@@ -7,7 +7,7 @@
 
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::compare_test {
 
 namespace {
 
@@ -145,4 +145,4 @@ TEST(Compare, ReportsWhatIsUnsupported) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::compare_test

@@ -1,7 +1,7 @@
 // Which fragments the marks stop, and what that does to the picture.
 #include "tests/render/sample_count.h"
 
-namespace sheer::test {
+namespace sheer::test::depth_marks_test {
 
 namespace {
 
@@ -96,4 +96,4 @@ TEST(DepthMarks, RespectOpaqueGeometryInEveryFrame) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::depth_marks_test

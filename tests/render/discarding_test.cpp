@@ -3,7 +3,7 @@
 #include "renderer/scene/random.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::discarding_test {
 
 namespace {
 
@@ -147,4 +147,4 @@ TEST(Discarding, ShadesWhatIsNeeded) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::discarding_test

@@ -11,7 +11,7 @@
 #include "tests/render/compositor.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::fragments_test {
 
 namespace {
 
@@ -245,4 +245,4 @@ TEST(CountPicture, GoesFromBlackToPaleYellow) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::fragments_test

@@ -8,7 +8,7 @@
 #include "renderer/scene/glsl_shading.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::glsl_shading_test {
 
 namespace {
 
@@ -178,4 +178,4 @@ TEST(GlslShading, WhatIsNoNumberAndWhatIsTooLargeGivesAReport) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::glsl_shading_test

@@ -3,7 +3,7 @@
 #include "renderer/scene/model.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::gltf_test {
 
 namespace {
 
@@ -210,4 +210,4 @@ TEST(GltfShadings, OthersWorkWithTheTint) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::gltf_test

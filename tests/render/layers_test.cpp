@@ -6,7 +6,7 @@
 #include "tests/render/compositor.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::layers_test {
 
 namespace {
 
@@ -223,4 +223,4 @@ TEST(LayersByHand, OriginIsTopLeft) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::layers_test

@@ -6,7 +6,7 @@
 #include "tests/render/litmus_scenes.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::litmus_test {
 
 namespace {
 
@@ -211,4 +211,4 @@ TEST_F(LitmusDetails, StencilCapLosesLayersAndSettles) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::litmus_test

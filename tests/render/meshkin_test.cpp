@@ -3,7 +3,7 @@
 
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::meshkin_test {
 
 namespace {
 
@@ -181,4 +181,4 @@ TEST(Meshkin, SaysItsMemory) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::meshkin_test

@@ -2,7 +2,7 @@
 #include "renderer/scene/random.h"
 #include "tests/render/sample_count.h"
 
-namespace sheer::test {
+namespace sheer::test::opaque_depth_test {
 
 namespace {
 
@@ -163,4 +163,4 @@ TEST(OpaqueDepth, SaysWhatItTakes) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::opaque_depth_test

@@ -7,7 +7,7 @@
 #include "tests/render/compositor.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::references_test {
 
 namespace {
 
@@ -192,4 +192,4 @@ TEST(Overdraw, CountsVisibleFragments) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::references_test

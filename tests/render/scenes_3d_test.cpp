@@ -2,7 +2,7 @@
 #include "renderer/scene/camera.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::scenes_3d_test {
 
 namespace {
 
@@ -221,4 +221,4 @@ TEST(Scenes3dOpaque, Hides) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::scenes_3d_test

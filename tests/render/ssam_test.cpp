@@ -4,7 +4,7 @@
 #include "renderer/scene/random.h"
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::ssam_test {
 
 namespace {
 
@@ -194,4 +194,4 @@ TEST_F(Ssam, FramesDoNotDependOnEachOther) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::ssam_test

@@ -6,7 +6,7 @@
 #include "renderer/scene/random.h"
 #include "tests/render/sample_count.h"
 
-namespace sheer::test {
+namespace sheer::test::stencil_cap_test {
 
 namespace {
 
@@ -227,4 +227,4 @@ TEST_F(StencilCapTest, SaysWhatItTakes) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::stencil_cap_test

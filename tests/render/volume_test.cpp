@@ -3,7 +3,7 @@
 
 #include "tests/render/render_test.h"
 
-namespace sheer::test {
+namespace sheer::test::volume_test {
 
 namespace {
 
@@ -238,4 +238,4 @@ TEST(VolumeShadings, AllDraw) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::volume_test

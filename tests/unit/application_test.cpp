@@ -7,7 +7,7 @@
 #include "server/http/text.h"
 #include "store_fixture.h"
 
-namespace sheer::http {
+namespace sheer::http::application_test {
 namespace {
 
 using nlohmann::json;
@@ -369,4 +369,4 @@ TEST_F(ApplicationTest, TheOpenapiDocumentDescribesEveryCall) {
 }
 
 }  // namespace
-}  // namespace sheer::http
+}  // namespace sheer::http::application_test

@@ -2,7 +2,7 @@
 
 #include "store_fixture.h"
 
-namespace sheer::test {
+namespace sheer::test::archive_test {
 namespace {
 
 using nlohmann::json;
@@ -197,4 +197,4 @@ TEST(Clock, TimesAreWrittenInUtc) {
 }
 
 }  // namespace
-}  // namespace sheer::test
+}  // namespace sheer::test::archive_test

@@ -9,7 +9,7 @@
 #include "tests/unit/asset_pictures.h"
 #include "tests/unit/temporary_folder.h"
 
-namespace sheer {
+namespace sheer::assets_test {
 namespace {
 
 using nlohmann::json;
@@ -242,4 +242,4 @@ TEST_F(AssetFiles, AreFoundByTheirNames) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::assets_test

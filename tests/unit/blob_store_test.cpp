@@ -8,7 +8,7 @@
 #include "renderer/report/report.h"
 #include "temporary_folder.h"
 
-namespace sheer::test {
+namespace sheer::test::blob_store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,4 +106,4 @@ TEST_F(BlobStoreTest, AFileOverTheLimitIsNotRead) {
 }
 
 }  // namespace
-}  // namespace sheer::test
+}  // namespace sheer::test::blob_store_test

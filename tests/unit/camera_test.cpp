@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace sheer {
+namespace sheer::camera_test {
 
 namespace {
 
@@ -167,4 +167,4 @@ TEST(Camera, IsDescribedAsOptional) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::camera_test

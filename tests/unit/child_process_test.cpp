@@ -12,7 +12,7 @@
 #include "server/worker/stop_signal.h"
 #include "temporary_folder.h"
 
-namespace sheer::test {
+namespace sheer::test::child_process_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -191,4 +191,4 @@ TEST(DeviceListTest, AChildThatFailsIsAnError) {
 }
 
 }  // namespace
-}  // namespace sheer::test
+}  // namespace sheer::test::child_process_test

@@ -11,7 +11,7 @@
 #include "renderer/spec/litmus_page.h"
 #include "server/cli/service_config.h"
 
-namespace sheer {
+namespace sheer::documents_test {
 
 namespace {
 
@@ -136,4 +136,4 @@ TEST(Documents, HaveNoBoundsWithExponents) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::documents_test

@@ -8,7 +8,7 @@
 
 #include "renderer/errors.h"
 
-namespace sheer::cli {
+namespace sheer::cli::failure_test {
 
 namespace {
 
@@ -43,4 +43,4 @@ TEST(Failure, WhatOthersSayStaysHere) {
 
 }  // namespace
 
-}  // namespace sheer::cli
+}  // namespace sheer::cli::failure_test

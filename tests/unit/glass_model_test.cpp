@@ -8,7 +8,7 @@
 
 #include "renderer/assets/read_model.h"
 
-namespace sheer::test {
+namespace sheer::test::glass_model_test {
 
 namespace {
 
@@ -41,4 +41,4 @@ TEST(GlassModel, HasEveryKindOfSurface) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::glass_model_test

@@ -5,7 +5,7 @@
 
 #include "renderer/spec/spec.h"
 
-namespace sheer {
+namespace sheer::glsl_shading_test {
 
 namespace {
 
@@ -193,4 +193,4 @@ TEST(GlslShading, IsInTheSchemaAndTheSelfDescription) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::glsl_shading_test

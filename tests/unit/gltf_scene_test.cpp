@@ -11,7 +11,7 @@
 #include "tests/unit/glb_writer.h"
 #include "tests/unit/temporary_folder.h"
 
-namespace sheer::test {
+namespace sheer::test::gltf_scene_test {
 
 namespace {
 
@@ -134,4 +134,4 @@ TEST_F(GltfScene, UploadsAreChecked) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::gltf_scene_test

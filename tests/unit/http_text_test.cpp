@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sheer::http {
+namespace sheer::http::http_text_test {
 namespace {
 
 TEST(HttpText, PreferredWait) {
@@ -76,4 +76,4 @@ TEST(HttpText, Cursors) {
 }
 
 }  // namespace
-}  // namespace sheer::http
+}  // namespace sheer::http::http_text_test

@@ -1,6 +1,6 @@
 #include "store_fixture.h"
 
-namespace sheer::test {
+namespace sheer::test::leases_test {
 namespace {
 
 using LeasesTest = StoreTest;
@@ -187,4 +187,4 @@ TEST(LeaseRulesTest, WhatBecomesOfALostAttempt) {
 }
 
 }  // namespace
-}  // namespace sheer::test
+}  // namespace sheer::test::leases_test

@@ -8,7 +8,7 @@
 #include "renderer/frame/flip_map.h"
 #include "renderer/frame/magma.h"
 
-namespace sheer {
+namespace sheer::metric_flip_test {
 namespace {
 
 using test::constant8;
@@ -167,4 +167,4 @@ TEST(Magma, IsWithinALevelOfTheOriginal) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::metric_flip_test

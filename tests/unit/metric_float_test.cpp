@@ -7,7 +7,7 @@
 
 #include "metric_pictures.h"
 
-namespace sheer {
+namespace sheer::metric_float_test {
 namespace {
 
 using nlohmann::json;
@@ -135,4 +135,4 @@ TEST(OverBackgrounds, OtherSizesAreRefused) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::metric_float_test

@@ -2,7 +2,7 @@
 
 #include "metric_pictures.h"
 
-namespace sheer {
+namespace sheer::metric_ssim_test {
 namespace {
 
 using test::constant;
@@ -62,4 +62,4 @@ TEST(Ssim, OfAnInvertedPictureIsNegative) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::metric_ssim_test

@@ -6,7 +6,7 @@
 
 #include "metric_pictures.h"
 
-namespace sheer {
+namespace sheer::metrics_test {
 namespace {
 
 using test::busy;
@@ -283,4 +283,4 @@ TEST(Quantize, KeepsEveryLevelOfALongPicture) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::metrics_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sheer::view {
+namespace sheer::view::orbit_test {
 
 namespace {
 
@@ -45,4 +45,4 @@ TEST(Orbit, KeepsItsDistanceUntilItIsMovedAway) {
 
 }  // namespace
 
-}  // namespace sheer::view
+}  // namespace sheer::view::orbit_test

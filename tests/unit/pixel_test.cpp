@@ -11,7 +11,7 @@
 #include "renderer/frame/pixel_counts.h"
 #include "renderer/report/picture_file.h"
 
-namespace sheer {
+namespace sheer::pixel_test {
 namespace {
 
 using nlohmann::json;
@@ -168,4 +168,4 @@ TEST_F(PixelReportTest, PicturesThatAreNoneAreErrors) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::pixel_test

@@ -6,7 +6,7 @@
 
 #include "temporary_folder.h"
 
-namespace sheer {
+namespace sheer::provenance_test {
 namespace {
 
 using nlohmann::json;
@@ -56,4 +56,4 @@ TEST(Provenance, TheLoadIsThreeMeans) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::provenance_test

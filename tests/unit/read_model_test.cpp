@@ -11,7 +11,7 @@
 #include "tests/unit/glb_writer.h"
 #include "tests/unit/temporary_folder.h"
 
-namespace sheer::test {
+namespace sheer::test::read_model_test {
 
 namespace {
 
@@ -406,4 +406,4 @@ TEST(ReadModel, MutationsNeverDoHarm) {
 
 }  // namespace
 
-}  // namespace sheer::test
+}  // namespace sheer::test::read_model_test

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-namespace sheer {
+namespace sheer::read_volume_test {
 
 namespace {
 
@@ -222,4 +222,4 @@ TEST(RawVolumes, OfAnotherSizeAreRefused) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::read_volume_test

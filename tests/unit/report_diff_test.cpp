@@ -5,7 +5,7 @@
 #include "renderer/report/picture_file.h"
 #include "tests/unit/map_sink.h"
 
-namespace sheer {
+namespace sheer::report_diff_test {
 namespace {
 
 using nlohmann::json;
@@ -303,4 +303,4 @@ TEST_F(ReportDiff, LinearPicturesAreComparedByTheirBytes) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::report_diff_test

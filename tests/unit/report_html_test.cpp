@@ -6,7 +6,7 @@
 
 #include "renderer/report/report.h"
 
-namespace sheer {
+namespace sheer::report_html_test {
 namespace {
 
 using nlohmann::json;
@@ -105,4 +105,4 @@ TEST(ReportHtml, FailsWhereAPictureCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::report_html_test

@@ -10,7 +10,7 @@
 #include "renderer/report/picture_file.h"
 #include "tests/unit/map_sink.h"
 
-namespace sheer {
+namespace sheer::report_test {
 
 namespace {
 
@@ -346,4 +346,4 @@ TEST(ContentSinkTest, NamesFilesByContent) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::report_test

@@ -5,7 +5,7 @@
 
 #include "server/http/problem.h"
 
-namespace sheer::http {
+namespace sheer::http::router_test {
 namespace {
 
 using nlohmann::json;
@@ -96,4 +96,4 @@ TEST(ProblemTest, IsRfc9457) {
 }
 
 }  // namespace
-}  // namespace sheer::http
+}  // namespace sheer::http::router_test

@@ -8,7 +8,7 @@
 #include "renderer/scene/scene_info.h"
 #include "renderer/scene/textures.h"
 
-namespace sheer {
+namespace sheer::scene_test {
 
 namespace {
 
@@ -341,4 +341,4 @@ TEST(Scenes, DescribeThemselves) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::scene_test

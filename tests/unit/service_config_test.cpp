@@ -7,7 +7,7 @@
 #include "server/http/server.h"
 #include "temporary_folder.h"
 
-namespace sheer::cli {
+namespace sheer::cli::service_config_test {
 namespace {
 
 using nlohmann::json;
@@ -88,4 +88,4 @@ TEST(EndpointTest, AddressesAndPorts) {
 }
 
 }  // namespace
-}  // namespace sheer::cli
+}  // namespace sheer::cli::service_config_test

@@ -6,7 +6,7 @@
 #include "renderer/methods/method.h"
 #include "renderer/scene/scene_info.h"
 
-namespace sheer {
+namespace sheer::spec_test {
 
 namespace {
 
@@ -197,4 +197,4 @@ TEST(Catalog, DescribesParameters) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::spec_test

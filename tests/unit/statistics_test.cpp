@@ -9,7 +9,7 @@
 #include <functional>
 #include <random>
 
-namespace sheer {
+namespace sheer::statistics_test {
 
 namespace {
 
@@ -215,4 +215,4 @@ TEST(Verdict, TheIntervalHoldsTheTrueRatio) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::statistics_test

@@ -8,7 +8,7 @@
 #include "renderer/report/suite.h"
 #include "renderer/spec/spec.h"
 
-namespace sheer {
+namespace sheer::suites_test {
 
 namespace {
 
@@ -190,4 +190,4 @@ TEST(Frontier, NeedsTwoMethodsWithTimeAndError) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::suites_test

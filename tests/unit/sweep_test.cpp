@@ -4,7 +4,7 @@
 
 #include "renderer/spec/spec.h"
 
-namespace sheer {
+namespace sheer::sweep_test {
 
 namespace {
 
@@ -113,4 +113,4 @@ TEST(Sweep, NormalisedSpecMeansTheSame) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::sweep_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace sheer {
+namespace sheer::two_samples_test {
 namespace {
 
 using Times = std::vector<double>;
@@ -101,4 +101,4 @@ TEST(JudgeTwoSamples, FindsAFactorOf13) {
 }
 
 }  // namespace
-}  // namespace sheer
+}  // namespace sheer::two_samples_test

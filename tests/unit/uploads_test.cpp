@@ -9,7 +9,7 @@
 #include "server/worker/upload_check.h"
 #include "store_fixture.h"
 
-namespace sheer::test {
+namespace sheer::test::uploads_test {
 namespace {
 
 using nlohmann::json;
@@ -194,4 +194,4 @@ TEST_F(AssetCallsTest, TheLimitOfUploadsIsTheirOwn) {
 }
 
 }  // namespace
-}  // namespace sheer::test
+}  // namespace sheer::test::uploads_test

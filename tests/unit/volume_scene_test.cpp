@@ -5,7 +5,7 @@
 #include "renderer/scene/camera.h"
 #include "renderer/scene/scene_info.h"
 
-namespace sheer {
+namespace sheer::volume_scene_test {
 
 namespace {
 
@@ -292,4 +292,4 @@ TEST(Head, OfAnySizeHasAsMuchBone) {
 
 }  // namespace
 
-}  // namespace sheer
+}  // namespace sheer::volume_scene_test

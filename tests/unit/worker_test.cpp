@@ -9,7 +9,7 @@
 #include "server/worker/supervisor.h"
 #include "store_fixture.h"
 
-namespace sheer::test {
+namespace sheer::test::worker_test {
 namespace {
 
 using nlohmann::json;
@@ -251,4 +251,4 @@ TEST(ReportFolder, APageIsNoPicture) {
 }
 
 }  // namespace
-}  // namespace sheer::test
+}  // namespace sheer::test::worker_test

@@ -107,7 +107,7 @@ Shade meadow(const std::vector<Tree>& trees) {
     };
 }
 
-Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
+Geometry build_foliage(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
     const auto tree_count = scene.at("trees").get<std::size_t>(),
                planes = scene.at("planes_per_tree").get<std::size_t>();
@@ -140,7 +140,7 @@ SceneInfo scene_foliage() {
                        Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0), camera_parameter()},
         .default_shading = "1-texture",
         .check = check_camera,
-        .build = build,
+        .build = build_foliage,
     };
 }
 

@@ -82,7 +82,7 @@ class Builder {
     glm::vec2 m_uv_shift{0};
 };
 
-Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets) {
+Geometry build_gltf(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets) {
     const Model model = assets.model(scene.at("model"));
     Geometry geometry = Builder(model, scene.at("light") == "daylight").build();
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
@@ -108,7 +108,7 @@ SceneInfo scene_gltf() {
         .default_shading = "material",
         .own_shading = "material",
         .check = check_camera,
-        .build = build,
+        .build = build_gltf,
         .asset_field = "model",
     };
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t max_layers = 4096;
 
-Geometry build(const nlohmann::json& scene, const ImageSpec&, AssetReader&) {
+Geometry build_layers(const nlohmann::json& scene, const ImageSpec&, AssetReader&) {
     Geometry geometry;
     geometry.parallel = true;
     for (const auto& layer : scene.at("layers")) {
@@ -43,7 +43,7 @@ SceneInfo scene_layers() {
              Param::number("alpha", "opacity", "", 0.5, 0, 1),
              Param::boolean("opaque", "drawn without blending, with depth writes, before the transparent ones", false)},
             1, max_layers)},
-        .build = build,
+        .build = build_layers,
     };
 }
 

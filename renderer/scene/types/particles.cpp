@@ -20,7 +20,7 @@ constexpr double ground_radius = 1.7, plume_height = 3.45, flame_height = 1.3, f
 constexpr double usual_count = 2000;
 
 /// Holds ground and plume, whatever the seed and the count, at size 1.
-const Sphere bounds{{0.15, 1.95, 0}, 2.8};
+const Sphere fire_bounds{{0.15, 1.95, 0}, 2.8};
 
 struct Sprite {
     dvec3 centre;
@@ -163,11 +163,11 @@ void add_fireplace(Geometry& geometry, bool fire, Random& random) {
     }
 }
 
-Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
+Geometry build_particles(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
     const bool fire = scene.at("appearance").get<std::string>() == "fire";
     const auto count = scene.at("count").get<std::size_t>();
-    const Camera camera = read_camera(scene.at("camera"), bounds, {0, 0.16, 1}, aspect);
+    const Camera camera = read_camera(scene.at("camera"), fire_bounds, {0, 0.16, 1}, aspect);
     const glm::dmat4 view = camera.view();
     Random random(scene.at("seed").get<std::uint64_t>());
     Geometry geometry;
@@ -186,7 +186,7 @@ Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&
         sprite.tint.a *= static_cast<float>(grain.alpha);
         add_sprite(geometry, sprite, view, random);
     }
-    geometry.view_projection = glm::mat4(camera.projection(bounds, aspect));
+    geometry.view_projection = glm::mat4(camera.projection(fire_bounds, aspect));
     geometry.camera = camera_json(camera);
     set_depths(geometry, glm::dmat4(1));
     geometry.parallel = true;
@@ -209,7 +209,7 @@ SceneInfo scene_particles() {
         .default_shading = "1-texture",
         .default_texture = "smoke",
         .check = check_camera,
-        .build = build,
+        .build = build_particles,
     };
 }
 

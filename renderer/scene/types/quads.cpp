@@ -11,7 +11,7 @@ namespace sheer {
 
 namespace {
 
-struct Distribution {
+struct QuadDistribution {
     std::string name;
     double min_size, max_size;  // fraction of the shorter side
     double centre_spread;  // largest distance of the centre from the middle, fraction of a side; 0: anywhere visible
@@ -20,8 +20,8 @@ struct Distribution {
 
 constexpr double small_size = 154.0 / 512, big_size = 307.0 / 512;
 
-const std::vector<Distribution>& distributions() {
-    static const std::vector<Distribution> all = {
+const std::vector<QuadDistribution>& distributions() {
+    static const std::vector<QuadDistribution> all = {
         {"random", 26.0 / 512, 256.0 / 512, 0},  {"small", small_size, small_size, 0},
         {"big", big_size, big_size, 0},          {"full", 1, 1, 0, true},
         {"thick", small_size, small_size, 0.1},  {"medium", small_size, small_size, 0.2},
@@ -47,15 +47,15 @@ std::vector<float> shuffled_depths(std::size_t count, Random& random) {
 }
 
 /// The lower edge of a span of `size` in 0..1.
-double place(const Distribution& distribution, double size, Random& random) {
+double place(const QuadDistribution& distribution, double size, Random& random) {
     if (distribution.centre_spread == 0) return random.between(0, 1 - size);
     const double centre = 0.5 + random.between(-distribution.centre_spread, distribution.centre_spread);
     return std::clamp(centre - size / 2, 0.0, 1 - size);
 }
 
-Geometry build(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
+Geometry build_quads(const nlohmann::json& scene, const ImageSpec& image, AssetReader&) {
     const auto name = scene.at("distribution").get<std::string>();
-    const auto& distribution = *std::ranges::find(distributions(), name, &Distribution::name);
+    const auto& distribution = *std::ranges::find(distributions(), name, &QuadDistribution::name);
     const auto count = scene.at("count").get<std::size_t>();
     const double shorter_px = std::min(image.width_px, image.height_px);
     Random random(scene.at("seed").get<std::uint64_t>());
@@ -91,7 +91,7 @@ SceneInfo scene_quads() {
                        Param::integer("count", "how many quads", "", 1024, 1, 65536),
                        Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0)},
         .default_shading = "4x4-textures",
-        .build = build,
+        .build = build_quads,
     };
 }
 

@@ -146,7 +146,7 @@ Volume read_volume(const json& volume, AssetReader& assets) {
                                          raw.at("voxel").get<std::string>()});
 }
 
-Geometry build(const json& scene, const ImageSpec& image, AssetReader& assets) {
+Geometry build_volume(const json& scene, const ImageSpec& image, AssetReader& assets) {
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
     const auto density = scene.at("density").get<double>();
     Volume volume = read_volume(scene.at("volume"), assets);
@@ -214,7 +214,7 @@ json usual_transfer() {
             point(1, {1, 1, 0.97}, 0.95)};
 }
 
-std::vector<Param> parameters() {
+std::vector<Param> volume_parameters() {
     Param raw = Param::object(
         "raw", "what a file without a header holds; leave it out for NRRD",
         {Param::numbers("size", "voxels along x, y and z; x is the fastest", "", {1, 1, 1}, 1, largest_side).required(),
@@ -253,11 +253,11 @@ SceneInfo scene_volume() {
         .name = "Volume",
         .summary = "A grid of scalars, such as a head with its skull, as slices that face the camera.",
         .source = "Sheer",
-        .parameters = parameters(),
+        .parameters = volume_parameters(),
         .default_shading = "transfer-function",
         .own_shading = "transfer-function",
         .check = check,
-        .build = build,
+        .build = build_volume,
         .asset_field = "volume/data",
     };
 }
