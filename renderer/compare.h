@@ -48,8 +48,8 @@ struct Run {
     std::optional<double> residual;  ///< greatest difference of the two references, in 0..1
     std::string no_residual_reason;
     nlohmann::json reference_findings = nlohmann::json::object();  ///< see Method::findings
-    std::vector<MethodResult> results;  ///< in the order of the spec's methods
-    PixelCounts overdraw;               ///< transparent fragments that opaque geometry does not hide
+    std::vector<MethodResult> results;                             ///< in the order of the spec's methods
+    PixelCounts overdraw;  ///< transparent fragments that opaque geometry does not hide
     /// Frames of a second instance of the baseline, in the same rounds; none where the baseline cannot run.
     std::vector<gl::FrameSample> baseline_again;
     int rounds_done = 0;

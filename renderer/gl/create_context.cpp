@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <stdexcept>
 
@@ -11,12 +10,6 @@
 
 namespace sheer::gl {
 namespace {
-
-constexpr std::array all_kinds{
-    Kind{"egl", egl_candidates, true},
-    Kind{"osmesa", osmesa_candidates, true},
-    Kind{"glfw", glfw_candidates, false},
-};
 
 std::string lower(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -85,10 +78,6 @@ void require_known(std::string_view context, std::span<const Kind> kinds) {
 
 }  // namespace
 
-std::unique_ptr<Context> create_context(const ContextRequest& request) {
-    return create_context(request, all_kinds);
-}
-
 std::unique_ptr<Context> create_context(const ContextRequest& request, std::span<const Kind> kinds) {
     require_known(request.context, kinds);
     // A wrong name is the caller's mistake, not a reason to go on to the next device.
@@ -103,20 +92,6 @@ std::unique_ptr<Context> create_context(const ContextRequest& request, std::span
     throw Unsupported(fmt::format("no OpenGL 4.5 context '{}'{}: {}", request.context,
                                   selection.any() ? "" : fmt::format(" on device '{}'", request.device),
                                   fmt::join(reasons, "; ")));
-}
-
-std::vector<ListedDevice> list_devices() {
-    std::vector<ListedDevice> all;
-    for (const Kind& kind : all_kinds) {
-        for (const Candidate& candidate : kind.candidates()) {
-            try {
-                all.push_back({candidate.create(candidate.info, {})->device(), std::nullopt});
-            } catch (const std::runtime_error& error) {
-                all.push_back({candidate.info, error.what()});
-            }
-        }
-    }
-    return all;
 }
 
 }  // namespace sheer::gl

@@ -40,10 +40,12 @@ void divide(const PixelCounts& overdraw, ScreenTile tile, std::uint64_t capacity
                           std::to_string(capacity));
     const bool wide = tile.width() >= tile.height();
     const int middle = wide ? tile.x0 + tile.width() / 2 : tile.y0 + tile.height() / 2;
-    divide(overdraw, wide ? ScreenTile{tile.x0, tile.y0, middle, tile.y1} : ScreenTile{tile.x0, tile.y0, tile.x1, middle}, capacity,
-           tiles);
-    divide(overdraw, wide ? ScreenTile{middle, tile.y0, tile.x1, tile.y1} : ScreenTile{tile.x0, middle, tile.x1, tile.y1}, capacity,
-           tiles);
+    divide(overdraw,
+           wide ? ScreenTile{tile.x0, tile.y0, middle, tile.y1} : ScreenTile{tile.x0, tile.y0, tile.x1, middle},
+           capacity, tiles);
+    divide(overdraw,
+           wide ? ScreenTile{middle, tile.y0, tile.x1, tile.y1} : ScreenTile{tile.x0, middle, tile.x1, tile.y1},
+           capacity, tiles);
 }
 
 class LinkedLists : public Method {
@@ -110,7 +112,9 @@ class LinkedLists : public Method {
         m_memory_bytes = nodes_bytes + heads_bytes;
     }
 
-    std::uint64_t counted_in(const ScreenTile& tile) const { return m_overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1); }
+    std::uint64_t counted_in(const ScreenTile& tile) const {
+        return m_overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1);
+    }
 
     /// Each fragment takes a number, also one that finds no room any more.
     void require_all_kept(const ScreenTile& tile) {

@@ -35,7 +35,8 @@ using SsimSourceRow = std::array<float, ssim_source_width>;
 /// are nearly alike d is small and exact, and the rounding of var s cancels between numerator and denominator.
 struct SsimScratch {
     SsimSourceRow sum, difference, sum_squared, difference_squared;
-    std::array<SsimRow, ssim_source_height> sum_x, difference_x, sum_squared_x, difference_squared_x;  ///< filtered along rows
+    std::array<SsimRow, ssim_source_height> sum_x, difference_x, sum_squared_x,
+        difference_squared_x;  ///< filtered along rows
 };
 
 /// The windows' centres, and the windows' shape.
@@ -62,7 +63,8 @@ struct SsimTile {
     int left, top, width, height;  ///< of the centres, px in the picture
 };
 
-void filter_rows(const ImagePair& pair, const Windows& windows, const SsimTile& tile, int channel, SsimScratch& scratch) {
+void filter_rows(const ImagePair& pair, const Windows& windows, const SsimTile& tile, int channel,
+                 SsimScratch& scratch) {
     const int last_x = pair.reference8.width_px - 1;
     const int last_y = pair.reference8.height_px - 1;
     for (int y = 0; y < tile.height + 2 * window_radius; ++y) {
@@ -80,7 +82,8 @@ void filter_rows(const ImagePair& pair, const Windows& windows, const SsimTile& 
             scratch.difference_squared[x] = scratch.difference[x] * scratch.difference[x];
         }
         const auto across = [&](const SsimSourceRow& from, SsimRow& to) {
-            for (int x = 0; x < ssim_tile_width; ++x) to[x] = even_sum<window_radius, 1>(&from[x + window_radius], windows.across);
+            for (int x = 0; x < ssim_tile_width; ++x)
+                to[x] = even_sum<window_radius, 1>(&from[x + window_radius], windows.across);
         };
         across(scratch.sum, scratch.sum_x[y]);
         across(scratch.difference, scratch.difference_x[y]);
@@ -94,7 +97,8 @@ double row_sum(const Windows& windows, const SsimTile& tile, int y, const SsimSc
     SsimRow sum, difference, sum_squared, difference_squared, ssim;
     const auto down = [&](const std::array<SsimRow, ssim_source_height>& from, SsimRow& to) {
         const float* centre = from[y + window_radius].data();
-        for (int x = 0; x < ssim_tile_width; ++x) to[x] = even_sum<window_radius, ssim_tile_width>(centre + x, windows.down);
+        for (int x = 0; x < ssim_tile_width; ++x)
+            to[x] = even_sum<window_radius, ssim_tile_width>(centre + x, windows.down);
     };
     down(scratch.sum_x, sum);
     down(scratch.difference_x, difference);
@@ -123,7 +127,7 @@ MetricValue compute_ssim(const ImagePair& pair) {
             const int x = index % columns * ssim_tile_width;
             const int y = index / columns * ssim_tile_height;
             const SsimTile tile{windows.left + x, windows.top + y, std::min(ssim_tile_width, windows.width - x),
-                            std::min(ssim_tile_height, windows.height - y)};
+                                std::min(ssim_tile_height, windows.height - y)};
             for (int channel = 0; channel < 3; ++channel) {
                 filter_rows(pair, windows, tile, channel, *scratch);
                 for (int row = 0; row < tile.height; ++row) sums[index] += row_sum(windows, tile, row, *scratch);

@@ -8,7 +8,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <thread>
@@ -16,7 +15,6 @@
 #include "renderer/frame/magma.h"
 #include "renderer/report/frontier.h"
 #include "renderer/report/measured.h"
-#include "renderer/report/picture_file.h"
 #include "renderer/report/provenance.h"
 #include "renderer/report/suite.h"
 #include "renderer/report/timing.h"
@@ -56,13 +54,13 @@ json provenance_json(const Device& device) {
     return object;
 }
 
-/// A run as JSON; its pictures go into the sink.
+/// A run as JSON; its pictures go into the sink, if there is one.
 class RunWriter {
   public:
     /// `prefix` comes before the names of the pictures.
-    RunWriter(const Spec& spec, const Run& run, bool software, BlobSink& sink, const std::string& prefix)
-        : m_spec(spec), m_run(run), m_sink(sink), m_prefix(prefix), m_timings(run, spec.baseline, software) {
-        if (!run.overdraw.counts.empty()) m_overdraw = count_image(run.overdraw, "overdraw.png");
+    RunWriter(const Spec& spec, const Run& run, bool software, PictureSink* pictures, const std::string& prefix)
+        : m_spec(spec), m_run(run), m_pictures(pictures), m_prefix(prefix), m_timings(run, spec.baseline, software) {
+        if (pictures && !run.overdraw.counts.empty()) m_overdraw = count_image(run.overdraw, prefix + "overdraw.png");
     }
 
     json write() const {
@@ -87,17 +85,14 @@ class RunWriter {
     }
 
   private:
-    json put(const std::string& bytes, const std::string& name, const std::string& media_type) const {
-        const std::string sha256 = sha256_hex(bytes);
-        return {{"sha256", sha256},
-                {"url", m_sink.put(sha256, bytes, m_prefix + name, media_type)},
-                {"media_type", media_type}};
+    std::string picture_name(const std::string& label, const std::string& ending) const {
+        return fmt::format("{}{}.{}", m_prefix, file_name(label), ending);
     }
 
     json pictures(const Image& image, const std::string& label, bool linear) const {
-        const std::string name = file_name(label);
-        json all = {{"color", put(encode_png(quantize(image)), name + ".color.png", "image/png")}};
-        if (linear) all["linear"] = put(encode_exr(image), name + ".linear.exr", "image/x-exr");
+        if (!m_pictures) return json::object();
+        json all = {{"color", m_pictures->take(quantize(image), picture_name(label, "color.png"))}};
+        if (linear) all["linear"] = m_pictures->take(image, picture_name(label, "linear.exr"));
         return all;
     }
 
@@ -122,9 +117,9 @@ class RunWriter {
         object["memory_bytes"] = result.memory_bytes;
         if (result.metrics) {
             object["metrics"] = result.metrics->values;
-            for (const auto& [key, picture] : result.metrics->pictures)
-                object["images"][key] =
-                    put(encode_png(picture), fmt::format("{}.{}.png", file_name(name), key), "image/png");
+            if (m_pictures)
+                for (const auto& [key, picture] : result.metrics->pictures)
+                    object["images"][key] = m_pictures->take(picture, picture_name(name, key + ".png"));
         } else {
             object["metrics_reason"] = result.no_metrics_reason;
         }
@@ -181,7 +176,7 @@ class RunWriter {
 
     json count_image(const PixelCounts& counts, const std::string& name) const {
         const std::uint32_t scale = count_scale();
-        json image = put(encode_png(count_picture(counts, scale)), name, "image/png");
+        json image = m_pictures->take(count_picture(counts, scale), name);
         image["greatest"] = counts.greatest();
         image["full_scale"] = scale;
         return image;
@@ -189,14 +184,14 @@ class RunWriter {
 
     json count_images(const MethodResult& result, const std::string& name) const {
         json images = json::object();
+        if (!m_pictures) return images;
         if (!m_overdraw.is_null()) images["overdraw"] = m_overdraw;
         const auto add = [&](const std::string& key, const std::optional<PixelCounts>& counts) {
             if (!counts) return;
-            images[key] = count_image(*counts, fmt::format("{}.{}.png", file_name(name), key));
+            images[key] = count_image(*counts, picture_name(name, key + ".png"));
             // A picture of 256 colours cannot tell more counts apart.
             if (count_scale() > most_counts_in_colours)
-                images[key + "_counts"] =
-                    put(encode_exr(*counts), fmt::format("{}.{}.exr", file_name(name), key), "image/x-exr");
+                images[key + "_counts"] = m_pictures->take(*counts, picture_name(name, key + ".exr"));
         };
         add("shaded", result.fragments.shaded);
         add("saturation", result.fragments.saturation);
@@ -205,7 +200,7 @@ class RunWriter {
 
     const Spec& m_spec;
     const Run& m_run;
-    BlobSink& m_sink;
+    PictureSink* m_pictures;  ///< may be null
     const std::string m_prefix;
     const Timings m_timings;
     json m_overdraw;  ///< the same for every method; null where it was not counted
@@ -244,36 +239,10 @@ std::string verdict_of(const json& checks) {
                                                                                                       : "failed";
 }
 
-void write_file(const std::filesystem::path& path, const std::string& bytes) {
-    std::ofstream file(path, std::ios::binary);
-    file << bytes;
-    file.close();
-    if (!file) throw std::runtime_error("cannot write " + path.string());
-}
-
 }  // namespace
 
-FolderSink::FolderSink(std::filesystem::path folder) : m_folder(std::move(folder)) {
-    std::filesystem::create_directories(m_folder / "images");
-}
-
-std::string FolderSink::put(const std::string&, const std::string& bytes, const std::string& name, const std::string&) {
-    write_file(m_folder / "images" / name, bytes);
-    return "images/" + name;
-}
-
-ContentSink::ContentSink(std::filesystem::path folder) : m_folder(std::move(folder)) {
-    std::filesystem::create_directories(m_folder);
-}
-
-std::string ContentSink::put(const std::string& sha256, const std::string& bytes, const std::string&,
-                             const std::string&) {
-    write_file(m_folder / sha256, bytes);
-    return "/api/v1/blobs/" + sha256;
-}
-
-ReportMaker::ReportMaker(const Spec& spec, const Device& device, BlobSink& sink, const std::string& created_at)
-    : m_spec(spec), m_software(device.info.software), m_sink(sink) {
+ReportMaker::ReportMaker(const Spec& spec, const Device& device, PictureSink* pictures, const std::string& created_at)
+    : m_spec(spec), m_software(device.info.software), m_pictures(pictures) {
     m_report = {{"status", "done"},          {"progress", 1.0},
                 {"error", nullptr},          {"created_at", created_at},
                 {"spec", m_spec.normalised}, {"spec_sha256", sha256_hex(m_spec.canonical_text())},
@@ -285,7 +254,7 @@ ReportMaker::ReportMaker(const Spec& spec, const Device& device, BlobSink& sink,
 void ReportMaker::add(const Run& run) {
     json& runs = m_report["runs"];
     const std::string prefix = m_spec.points.size() > 1 ? fmt::format("{:03}-", runs.size() + 1) : "";
-    runs.push_back(RunWriter(m_spec, run, m_software, m_sink, prefix).write());
+    runs.push_back(RunWriter(m_spec, run, m_software, m_pictures, prefix).write());
 }
 
 json ReportMaker::finish() {

@@ -51,7 +51,7 @@ struct Spec {
     std::string baseline;  ///< label of one of `methods`
     TimingSpec timing;
     std::vector<CheckSpec> checks;
-    std::string suite;  ///< id of the suite that it measures, or ""
+    std::string suite;               ///< id of the suite that it measures, or ""
     std::vector<SweepPoint> points;  ///< at least one
     nlohmann::json normalised;       ///< the whole as JSON; parsing it gives the same spec
 

@@ -1,21 +1,16 @@
 #pragma once
 #include <CLI/CLI.hpp>
 
-namespace sheer::cli {
+#include "renderer/command/command.h"
 
-// Exit codes of the program.
-inline constexpr int exit_ok = 0;
-inline constexpr int exit_check_failed = 1;
-inline constexpr int exit_bad_spec = 2;
-inline constexpr int exit_render_failed = 3;
-inline constexpr int exit_no_server = 4;
+namespace sheer::cli {
 
 /// Each adds its subcommand to `app`; when it is chosen it runs and stores the exit code.
 void add_compare(CLI::App& app, int& exit_code);
 void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, devices
 void add_diff(CLI::App& app, int& exit_code);
-void add_docs(CLI::App& app, int& exit_code);         ///< for ./dev docs; not shown in the help
-void add_gallery(CLI::App& app, int& exit_code);      ///< hidden: see ./dev gallery
+void add_docs(CLI::App& app, int& exit_code);     ///< for ./dev docs; not shown in the help
+void add_gallery(CLI::App& app, int& exit_code);  ///< hidden: see ./dev gallery
 void add_pixel(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);       ///< the worker's child; not shown in the help
 void add_check_asset(CLI::App& app, int& exit_code);  ///< the service's child; not shown in the help

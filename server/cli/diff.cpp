@@ -1,4 +1,4 @@
-#include "renderer/report/diff.h"
+#include "renderer/files/diff.h"
 
 #include <fmt/format.h>
 

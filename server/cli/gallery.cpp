@@ -4,8 +4,8 @@
 
 #include "renderer/assets/file_assets.h"
 #include "renderer/compare.h"
+#include "renderer/files/picture_file.h"
 #include "renderer/methods/method.h"
-#include "renderer/report/picture_file.h"
 #include "server/cli/commands.h"
 #include "server/cli/rendering.h"
 

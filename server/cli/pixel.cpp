@@ -1,5 +1,5 @@
 // Takes a pixel of a report apart: every fragment under it, and what each method made of them.
-#include "renderer/report/pixel.h"
+#include "renderer/files/pixel.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -8,6 +8,7 @@
 
 #include "renderer/assets/file_assets.h"
 #include "renderer/compare.h"
+#include "renderer/files/blob_sink.h"
 #include "renderer/report/report.h"
 #include "server/archive/blob_store.h"
 #include "server/cli/commands.h"
@@ -106,9 +107,9 @@ class Subject {
     }
 
     /// The comparison at this point alone, timed no longer than it must be.
-    static json render(Spec spec, gl::Context& context, AssetReader& assets, BlobSink& sink) {
+    static json render(Spec spec, gl::Context& context, AssetReader& assets, PictureSink& pictures) {
         spec.timing.rounds = 1;
-        ReportMaker maker(spec, describe_device(context), sink, utc_now());
+        ReportMaker maker(spec, describe_device(context), &pictures, utc_now());
         compare(
             spec, context, assets, [](double, const std::string&) {}, [&](const Run& run) { maker.add(run); });
         return maker.finish()["runs"][0];

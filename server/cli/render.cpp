@@ -6,6 +6,7 @@
 
 #include "renderer/assets/file_assets.h"
 #include "renderer/compare.h"
+#include "renderer/files/blob_sink.h"
 #include "renderer/frame/target.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
@@ -51,7 +52,7 @@ int run_render(const RenderArguments& options) {
         const auto context = gl::create_context(options.context);
         FileAssets assets(uploads_in(options.assets));
         ContentSink sink(options.out);
-        ReportMaker maker(spec, describe_device(*context), sink, created_at);
+        ReportMaker maker(spec, describe_device(*context), &sink, created_at);
         compare(
             spec, *context, assets,
             [](double fraction, const std::string& stage) {

@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
-#include <fstream>
-#include <sstream>
-
 #include "server/archive/blob_store.h"
 #include "server/cli/commands.h"
 
@@ -16,32 +12,7 @@ void add_context_options(CLI::App& command, gl::ContextRequest& request) {
     command.add_option("--context", request.context, "Where to render: auto tries EGL, then OSMesa")
         ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
         ->capture_default_str();
-    command.add_option("--device", request.device, "Index of a device, or a part of its name (see sheer devices)");
-    command.add_option("--without-workaround", request.disabled_workarounds,
-                       "Name of a driver workaround to switch off");
-}
-
-Spec load_spec(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read the spec " + path}});
-    return parse_spec_text(text.str());
-}
-
-int guarded(const std::function<int()>& action) {
-    try {
-        return action();
-    } catch (const SpecError& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return exit_bad_spec;
-    } catch (const UsageError& error) {
-        fmt::print(stderr, "sheer: {}\n", error.what());
-        return exit_bad_spec;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "sheer: {}\n", error.what());
-        return exit_render_failed;
-    }
+    add_device_options(command, request);
 }
 
 ReportFolder::ReportFolder(std::filesystem::path folder, const std::string& main_file) : m_folder(std::move(folder)) {
@@ -72,21 +43,6 @@ FileAssets::Resolver uploads_in(const std::filesystem::path& folder) {
         if (!std::filesystem::exists(file)) throw AssetError("the asset with this SHA-256 is not there any more");
         return file;
     };
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw std::runtime_error("cannot write " + path.string());
-}
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw std::runtime_error("cannot read " + path.string());
-    return text.str();
 }
 
 }  // namespace sheer::cli

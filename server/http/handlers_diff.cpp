@@ -3,8 +3,8 @@
 #include <atomic>
 #include <memory>
 
-#include "renderer/report/data_uri.h"
-#include "renderer/report/diff.h"
+#include "renderer/files/data_uri.h"
+#include "renderer/files/diff.h"
 #include "renderer/spec/sweep.h"
 #include "server/archive/blob_store.h"
 #include "server/http/problem.h"

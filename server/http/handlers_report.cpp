@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "renderer/files/html.h"
 #include "renderer/report/report.h"
 #include "server/archive/blob_store.h"
 #include "server/http/problem.h"

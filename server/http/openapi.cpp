@@ -142,7 +142,7 @@ json color_schema() {
     return {{"type", "array"}, {"items", nullable("number")}, {"minItems", 3}, {"maxItems", 3}};
 }
 
-/// See renderer/report/pixel.h.
+/// See renderer/files/pixel.h.
 json pixel_schema() {
     const json number = {{"type", "number"}}, count = nullable("integer");
     json color_or_null = color_schema();

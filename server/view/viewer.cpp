@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "renderer/errors.h"
+#include "renderer/files/picture_file.h"
 #include "renderer/frame/loop_check.h"
-#include "renderer/report/picture_file.h"
 #include "server/cli/rendering.h"
 #include "server/view/orbit.h"
 

@@ -6,6 +6,7 @@
 #include "../render/render_test.h"
 #include "../unit/temporary_folder.h"
 #include "renderer/compare.h"
+#include "renderer/files/blob_sink.h"
 #include "renderer/report/report.h"
 #include "server/archive/sqlite_store.h"
 #include "server/worker/report_folder.h"
@@ -56,7 +57,7 @@ void job(benchmark::State& state) {
         NoAssets assets;
         std::filesystem::create_directory(folder.path() / "out");
         ContentSink sink(folder.path() / "out");
-        ReportMaker maker(spec, describe_device(*context), sink, utc_now());
+        ReportMaker maker(spec, describe_device(*context), &sink, utc_now());
         compare(
             spec, *context, assets,
             [&](double, const std::string& stage) { rendering.run(!stage.starts_with("measuring")); },

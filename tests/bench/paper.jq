@@ -1,22 +1,30 @@
-# The reports of the suites, in their order, to docs/results/paper-tables.md.
+# The reports of the suites to docs/results/paper-tables.md: a column for each device, in the order in which they come.
 def shown: if . == null then "-" elif type == "array" then map(shown) | join(" to ")
     elif (. | fabs) >= 100 then round | tostring else . * 1000 | round / 1000 | tostring end;
 def place: to_entries | map("\(.key | sub(".*/"; "")) \(.value)") | join(", ");
+def cells: "| " + join(" | ") + " |";
+# "llvmpipe (LLVM 15.0.6, 256 bits)" is llvmpipe in the head of a column.
+def short: .device.renderer | sub(" *[(/].*"; "");
 "# The paper's tables, measured
 
 Made by `./dev paper` from the seven suites; what they mean is in [paper.md](paper.md). Speedups are over `b2f` of the same
 rounds, with the 95 % interval that the number of methods is allowed for.
 
-- Device: \(.[0].device.renderer), \(.[0].device.context) context; sheer \(.[0].provenance.version), commit \(.[0].provenance.commit)
 - Published on: \(.[0].suite.device)",
-(.[] | .suite as $suite | [.runs[].rounds.done] as $rounds
+(reduce .[] as $report ([]; if any(.[]; .device == $report.device) then . else . + [$report] end)
+    | .[] | "- \(short): \(.device.renderer), \(.device.gl_version), \(.device.context) context; sheer \(.provenance.version), commit \(.provenance.commit)"),
+(group_by(.suite.id)[] | . as $reports | .[0].suite as $suite
 | "
 ## \($suite.id | sub("paper-table-"; "Table ")): \($suite.title | ascii_downcase)
-
-\(.spec.image.width) x \(.spec.image.height) pixels, \([$rounds | min, max] | unique | map(tostring) | join(" to ")) rounds a point. `\(.provenance.rerun)`
-
-| at | method | figure | published | measured | 95 % |
-|---|---|---|---|---|---|",
-($suite.figures[] | "| \(.at | place) | `\(.method)` | \(.metric) | \(.published | shown) | \(.measured | shown) | \(if .ci95 then .ci95 | shown else "" end) |"),
+",
+(.[] | [.runs[].rounds.done] as $rounds
+    | "- \(short): \(.spec.image.width) x \(.spec.image.height) pixels, \([$rounds | min, max] | unique | map(tostring) | join(" to ")) rounds a point. `\(.provenance.rerun)`"),
 "",
-($suite.trends[] | "- **\(.verdict)**: \(.text). (\(.detail))"))
+(["at", "method", "figure", "published"] + map("\(short)", "95 %") | cells, (map("---") | cells)),
+(range($suite.figures | length) as $i | $suite.figures[$i]
+    | [(.at | place), "`\(.method)`", .metric, (.published | shown)]
+      + ($reports | map(.suite.figures[$i] | (.measured | shown), (if .ci95 then .ci95 | shown else "" end))) | cells),
+"",
+(range($suite.trends | length) as $i | $suite.trends[$i].text as $text | $reports
+    | if length == 1 then .[0].suite.trends[$i] | "- **\(.verdict)**: \(.text). (\(.detail))"
+      else "- \($text).", (.[] | "  - \(short): **\(.suite.trends[$i].verdict)**. (\(.suite.trends[$i].detail))") end))

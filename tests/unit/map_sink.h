@@ -2,6 +2,7 @@
 #include <map>
 #include <string>
 
+#include "renderer/files/blob_sink.h"
 #include "renderer/report/report.h"
 
 namespace sheer {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "renderer/errors.h"
-#include "renderer/report/diff.h"
-#include "renderer/report/picture_file.h"
+#include "renderer/files/diff.h"
+#include "renderer/files/picture_file.h"
 #include "tests/unit/map_sink.h"
 
 namespace sheer::report_diff_test {

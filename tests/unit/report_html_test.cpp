@@ -4,7 +4,7 @@
 
 #include <regex>
 
-#include "renderer/report/report.h"
+#include "renderer/files/html.h"
 
 namespace sheer::report_html_test {
 namespace {

@@ -7,7 +7,8 @@
 #include <fstream>
 #include <limits>
 
-#include "renderer/report/picture_file.h"
+#include "renderer/files/blob_sink.h"
+#include "renderer/files/picture_file.h"
 #include "tests/unit/map_sink.h"
 
 namespace sheer::report_test {
@@ -80,7 +81,7 @@ struct ReportFixture : testing::Test {
     }
 
     json report() {
-        ReportMaker maker(spec, device, sink, "2026-01-01T00:00:00.000Z");
+        ReportMaker maker(spec, device, &sink, "2026-01-01T00:00:00.000Z");
         for (const sheer::Run& run : runs) maker.add(run);
         return maker.finish();
     }

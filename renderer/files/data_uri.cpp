@@ -1,4 +1,4 @@
-#include "renderer/report/data_uri.h"
+#include "renderer/files/data_uri.h"
 
 #include <openssl/evp.h>
 

@@ -1,4 +1,4 @@
-#include "renderer/report/picture_file.h"
+#include "renderer/files/picture_file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "renderer/files/blob_sink.h"
 #include "renderer/report/report.h"
 
 namespace sheer {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "renderer/report/diff_parts.h"
+#include "renderer/files/diff_parts.h"
 #include "renderer/spec/param.h"
 
 namespace sheer {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "embedded_web.h"
-#include "renderer/report/data_uri.h"
-#include "renderer/report/report.h"
+#include "renderer/files/data_uri.h"
+#include "renderer/files/html.h"
 
 namespace sheer {
 

@@ -1,12 +1,12 @@
-#include "renderer/report/pixel.h"
+#include "renderer/files/pixel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/files/picture_file.h"
 #include "renderer/frame/magma.h"
-#include "renderer/report/picture_file.h"
 
 namespace sheer {
 

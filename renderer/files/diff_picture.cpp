@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "renderer/files/diff_parts.h"
+#include "renderer/files/picture_file.h"
 #include "renderer/metrics/metric.h"
-#include "renderer/report/diff_parts.h"
-#include "renderer/report/picture_file.h"
 
 namespace sheer {
 

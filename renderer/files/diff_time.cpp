@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "renderer/report/diff_parts.h"
+#include "renderer/files/diff_parts.h"
 #include "renderer/report/measured.h"
 #include "renderer/report/two_samples.h"
 

@@ -1,10 +1,10 @@
-#include "renderer/report/diff.h"
+#include "renderer/files/diff.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "renderer/report/diff_parts.h"
+#include "renderer/files/diff_parts.h"
 #include "renderer/report/measured.h"
 
 namespace sheer {

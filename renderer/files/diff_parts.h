@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "renderer/errors.h"
-#include "renderer/report/diff.h"
+#include "renderer/files/diff.h"
 
 namespace sheer {
 

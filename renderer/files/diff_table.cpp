@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "renderer/report/diff.h"
+#include "renderer/files/diff.h"
 #include "renderer/report/text_table.h"
 #include "renderer/spec/sweep.h"
 

@@ -1,0 +1,138 @@
+#include "renderer/command/command.h"
+
+#include <fmt/format.h>
+#include <spdlog/cfg/env.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "renderer/errors.h"
+#include "renderer/spec/names.h"
+#include "renderer/spec/suites.h"
+#include "version.h"
+
+namespace sheer::cli {
+
+namespace {
+
+/// A word of a shell's command line.
+std::string quoted(const std::string& text) {
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+,:@%", c); };
+    if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
+}  // namespace
+
+void log_to_stderr(const std::string& program) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt(program));
+    spdlog::set_level(spdlog::level::warn);
+    spdlog::cfg::load_env_levels();
+}
+
+int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
+    app.set_version_flag("--version", fmt::format("sheer {} ({})", version, commit));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_ok : exit_bad_spec;
+    }
+    return exit_code;
+}
+
+int guarded(const std::function<int()>& action) {
+    try {
+        return action();
+    } catch (const SpecError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return exit_bad_spec;
+    } catch (const UsageError& error) {
+        fmt::print(stderr, "sheer: {}\n", error.what());
+        return exit_bad_spec;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "sheer: {}\n", error.what());
+        return exit_render_failed;
+    }
+}
+
+void add_device_options(CLI::App& command, gl::ContextRequest& request) {
+    command.add_option("--device", request.device, "Index of a device, or a part of its name (see sheer devices)");
+    command.add_option("--without-workaround", request.disabled_workarounds,
+                       "Name of a driver workaround to switch off");
+}
+
+void add_source_options(CLI::App& command, Source& source) {
+    CLI::Option* spec = command.add_option("spec", source.spec, "The spec, a JSON file (see configs/specs)");
+    CLI::Option* suite =
+        command.add_option("--suite", source.suite, "Repeat a published measurement instead: see sheer suites");
+    command.add_option("--scale", source.scale, "Width and height of a suite's picture, times this")
+        ->needs(suite)
+        ->check(CLI::Range(0.01, 1.0));
+    suite->excludes(spec);
+}
+
+Spec read_spec(const Source& source) {
+    if (source.suite.empty() && source.spec.empty()) throw UsageError("give a SPEC.json or a --suite");
+    if (source.suite.empty()) return load_spec(source.spec);
+    const Suite* suite = find_suite(source.suite);
+    if (!suite)
+        throw UsageError(fmt::format("there is no suite \"{}\"; known are {}", source.suite, joined_ids(all_suites())));
+    return parse_spec(suite_spec(*suite, source.scale));
+}
+
+Spec load_spec(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read the spec " + path}});
+    return parse_spec_text(text.str());
+}
+
+std::string rerun_command(const std::string& command, const Source& source, const gl::ContextRequest& request) {
+    std::string words = command + " ";
+    words +=
+        source.suite.empty() ? quoted(source.spec) : fmt::format("--suite {} --scale {}", source.suite, source.scale);
+    for (const std::string& name : request.disabled_workarounds) words += " --without-workaround " + name;
+    return words;
+}
+
+ProgressBar::ProgressBar() : m_begin(std::chrono::steady_clock::now()), m_terminal(isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+    if (m_shown) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressBar::show(double fraction, const std::string& stage) {
+    if (!m_terminal || std::chrono::steady_clock::now() - m_begin < std::chrono::seconds(1)) return;
+    constexpr int width = 30;
+    const int filled = static_cast<int>(fraction * width);
+    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100 * fraction, stage);
+    std::fflush(stderr);
+    m_shown = true;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path.string());
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw std::runtime_error("cannot read " + path.string());
+    return text.str();
+}
+
+}  // namespace sheer::cli

@@ -1,0 +1,78 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "renderer/gl/context.h"
+#include "renderer/spec/spec.h"
+
+// What `sheer` and `sheer-bench` share on the command line.
+namespace sheer::cli {
+
+// Exit codes of the programs.
+inline constexpr int exit_ok = 0;
+inline constexpr int exit_check_failed = 1;
+inline constexpr int exit_bad_spec = 2;
+inline constexpr int exit_render_failed = 3;
+inline constexpr int exit_no_server = 4;
+
+/// The log goes to stderr, so that stdout is the program's own; SPDLOG_LEVEL=info says more.
+void log_to_stderr(const std::string& program);
+
+/// Adds --version, reads the command line, which runs what it names, and returns `exit_code` as that left it, or
+/// exit_bad_spec for a wrong command line.
+int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code);
+
+/// What was asked for cannot be done as asked. Exit code 2.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Runs `action` and turns what it throws into a message on stderr and an exit code.
+int guarded(const std::function<int()>& action);
+
+/// Adds --device and --without-workaround to `command`.
+void add_device_options(CLI::App& command, gl::ContextRequest& request);
+
+/// What is to be compared: a spec's file, or a published measurement to repeat.
+struct Source {
+    std::string spec, suite;
+    double scale = 1;
+};
+
+/// Adds SPEC.json, --suite and --scale to `command`.
+void add_source_options(CLI::App& command, Source& source);
+
+/// Throws SpecError, also for a file that cannot be read, naming it; UsageError if there is no such suite.
+Spec read_spec(const Source& source);
+/// Throws SpecError, also for a file that cannot be read, naming it.
+Spec load_spec(const std::string& path);
+
+/// The command that repeats a comparison: `command` and its source, as words of a shell.
+std::string rerun_command(const std::string& command, const Source& source, const gl::ContextRequest& request);
+
+/// A bar on a terminal's stderr, from the second second on.
+class ProgressBar {
+  public:
+    ProgressBar();
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    void show(double fraction, const std::string& stage);
+
+  private:
+    std::chrono::steady_clock::time_point m_begin;
+    bool m_terminal;
+    bool m_shown = false;
+};
+
+/// Throws std::runtime_error naming the file.
+void write_text(const std::filesystem::path& path, const std::string& text);
+/// Throws std::runtime_error naming the file.
+std::string read_text(const std::filesystem::path& path);
+
+}  // namespace sheer::cli
