@@ -36,21 +36,26 @@ class Compositor {
     };
 
     Compositor(const nlohmann::json& scene, int size_px, Color background)
-        : m_layers(scene.at("layers")), m_size_px(size_px), m_background(background) {}
+        : m_size_px(size_px), m_background(background) {
+        for (const auto& layer : scene.at("layers"))
+            m_layers.push_back({layer.at("rect").get<std::array<double, 4>>(), layer.at("depth").get<float>(),
+                                layer.at("color").get<Color>(), layer.at("alpha").get<double>(),
+                                layer.at("opaque").get<bool>()});
+    }
 
     Stack stack(int x, int y) const {
         Stack stack{m_background, {}};
         double opaque_depth = 2;
-        for (const auto& layer : m_layers) {
+        for (const Layer& layer : m_layers) {
             // Of opaque layers at one depth the later submitted wins.
-            if (layer.at("opaque") && covers(layer, x, y) && depth(layer) <= opaque_depth) {
-                opaque_depth = depth(layer);
-                stack.below = layer.at("color").get<Color>();
+            if (layer.opaque && covers(layer, x, y) && layer.depth <= opaque_depth) {
+                opaque_depth = layer.depth;
+                stack.below = layer.color;
             }
         }
-        for (const auto& layer : m_layers)
-            if (!layer.at("opaque") && covers(layer, x, y) && depth(layer) <= opaque_depth)
-                stack.fragments.push_back({depth(layer), layer.at("alpha"), layer.at("color").get<Color>()});
+        for (const Layer& layer : m_layers)
+            if (!layer.opaque && covers(layer, x, y) && layer.depth <= opaque_depth)
+                stack.fragments.push_back({layer.depth, layer.alpha, layer.color});
         return stack;
     }
 
@@ -150,15 +155,21 @@ class Compositor {
     }
 
   private:
-    static float depth(const nlohmann::json& layer) { return layer.at("depth").get<float>(); }
+    struct Layer {
+        std::array<double, 4> rect;
+        float depth;
+        Color color;
+        double alpha;
+        bool opaque;
+    };
 
-    bool covers(const nlohmann::json& layer, int x, int y) const {
-        const auto rect = layer.at("rect").get<std::array<double, 4>>();
+    bool covers(const Layer& layer, int x, int y) const {
+        const auto& rect = layer.rect;
         const double px = (x + 0.5) / m_size_px, py = (y + 0.5) / m_size_px;
         return px > rect[0] && px < rect[2] && py > rect[1] && py < rect[3];
     }
 
-    nlohmann::json m_layers;
+    std::vector<Layer> m_layers;
     int m_size_px;
     Color m_background;
 };
