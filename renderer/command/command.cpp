@@ -77,6 +77,8 @@ void add_source_options(CLI::App& command, Source& source) {
     command.add_option("--scale", source.scale, "Width and height of a suite's picture, times this")
         ->needs(suite)
         ->check(CLI::Range(0.01, 1.0));
+    command.add_option("--max-seconds", source.max_seconds, "Time for the rounds at each point of a suite, in s")
+        ->needs(suite);
     suite->excludes(spec);
 }
 
@@ -86,7 +88,9 @@ Spec read_spec(const Source& source) {
     const Suite* suite = find_suite(source.suite);
     if (!suite)
         throw UsageError(fmt::format("there is no suite \"{}\"; known are {}", source.suite, joined_ids(all_suites())));
-    return parse_spec(suite_spec(*suite, source.scale));
+    nlohmann::json spec = suite_spec(*suite, source.scale);
+    if (source.max_seconds) spec["timing"]["max_seconds"] = *source.max_seconds;
+    return parse_spec(spec);
 }
 
 Spec load_spec(const std::string& path) {
@@ -101,6 +105,7 @@ std::string rerun_command(const std::string& command, const Source& source, cons
     std::string words = command + " ";
     words +=
         source.suite.empty() ? quoted(source.spec) : fmt::format("--suite {} --scale {}", source.suite, source.scale);
+    if (source.max_seconds) words += fmt::format(" --max-seconds {}", *source.max_seconds);
     for (const std::string& name : request.disabled_workarounds) words += " --without-workaround " + name;
     return words;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -42,9 +43,10 @@ void add_device_options(CLI::App& command, gl::ContextRequest& request);
 struct Source {
     std::string spec, suite;
     double scale = 1;
+    std::optional<double> max_seconds;  ///< instead of the suite's timing.max_seconds
 };
 
-/// Adds SPEC.json, --suite and --scale to `command`.
+/// Adds SPEC.json, --suite, --scale and --max-seconds to `command`.
 void add_source_options(CLI::App& command, Source& source);
 
 /// Throws SpecError, also for a file that cannot be read, naming it; UsageError if there is no such suite.

@@ -54,12 +54,13 @@ test("it measures what sheer compare measures, without pictures", () => with_fol
 
 test("a suite is held against its published figures", () => with_folder({}, (folder) => {
   const out = join(folder, "table.json");
-  const bench = run(SHEER_BENCH, "--suite", "paper-table-7", "--scale", "0.02", "--out", out);
+  const bench = run(SHEER_BENCH, "--suite", "paper-table-7", "--scale", "0.02", "--max-seconds", "5", "--out", out);
   assert.equal(bench.status, 0, bench.stderr);
-  const { suite, provenance } = read(out);
+  const { suite, provenance, spec } = read(out);
+  assert.equal(spec.timing.max_seconds, 5);
   assert.equal(suite.id, "paper-table-7");
   assert.ok(suite.figures.every((figure) => figure.measured > 0), JSON.stringify(suite.figures));
-  assert.match(provenance.rerun, /^sheer-bench --suite paper-table-7 --scale 0\.02 --device egl:\d+$/);
+  assert.match(provenance.rerun, /^sheer-bench --suite paper-table-7 --scale 0\.02 --max-seconds 5 --device egl:\d+$/);
 }));
 
 test("what is wrong is said, and leaves no file", () => with_folder({ ...SPEC, methods: ["b3f"] }, (folder, spec) => {
@@ -69,6 +70,8 @@ test("what is wrong is said, and leaves no file", () => with_folder({ ...SPEC, m
     [[], 2, /give a SPEC\.json or a --suite/],
     [["--suite", "paper-table-8"], 2, /there is no suite "paper-table-8"; known are paper-table-1, /],
     [["--suite", "paper-table-7", "--scale", "2"], 2, /--scale/],
+    [["--suite", "paper-table-7", "--max-seconds", "-1"], 2, /^\/timing\/max_seconds: /],
+    [[spec, "--max-seconds", "5"], 2, /--suite/],
     [["--suite", "paper-table-7", "--device", "none such"], 3, /no OpenGL 4\.5 context 'egl' on device 'none such'/],
   ]) {
     const bench = run(SHEER_BENCH, ...words, "--out", out);
