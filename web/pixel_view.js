@@ -42,9 +42,9 @@ const number_cell = (value, decimals = DECIMALS) => el("td", { class: "number" }
 
 /** A share of the whole, as a number over a bar. */
 function share_cell(value) {
-  const bar = el("span", { class: "bar", "aria-hidden": "true" });
+  const bar = el("span", { "aria-hidden": "true" });
   bar.style.width = `${Math.min(1, Math.max(0, value)) * 100}%`;
-  return el("td", { class: "number share" }, bar, el("span", {}, fixed(value, DECIMALS)));
+  return el("td", { class: "number share" }, el("span", { class: "bar" }, bar), el("span", {}, fixed(value, DECIMALS)));
 }
 
 function heads(names) {
