@@ -37,6 +37,7 @@ class Comparer {
         Scene scene(m_context.gl(), geometry, m_spec.scene);
         check_loops(m_context.gl(), scene, m_spec.image);
         Run run;
+        run.notes = geometry.notes;
         render_reference(scene, run);
         Target target(m_context.gl(), m_spec.image, m_spec.image.format);
         make_methods(scene, target, run);

@@ -37,6 +37,7 @@ struct MethodResult {
     std::int64_t memory_bytes = 0;  ///< GL objects the method made for itself
     FragmentCounts fragments;
     nlohmann::json findings = nlohmann::json::object();  ///< see Method::findings
+    std::vector<Note> notes;                             ///< what makes this result other than it was meant
 };
 
 /// One point of the sweep.
@@ -53,6 +54,7 @@ struct Run {
     /// Frames of a second instance of the baseline, in the same rounds; none where the baseline cannot run.
     std::vector<gl::FrameSample> baseline_again;
     int rounds_done = 0;
+    std::vector<Note> notes;  ///< of the scene and its files
 };
 
 /// What a comparison runs on.

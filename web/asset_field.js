@@ -95,7 +95,7 @@ class AssetControl {
         this.#say(part < 1 ? `Uploading ${file.name}: ${Math.round(100 * part)} %` : `Reading ${file.name}`),
       );
       this.#uploaded = [asset, ...this.#uploaded.filter(({ sha256 }) => sha256 !== asset.sha256)];
-      this.#say("");
+      this.#say((asset.notes ?? []).map(({ where, text }) => (where ? `${where}: ${text}` : text)).join(" "));
       // Another scene may have been chosen meanwhile.
       if (this.element.isConnected) this.#choose(asset.sha256);
       this.#draw();

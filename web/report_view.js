@@ -202,6 +202,28 @@ function checks_list(report) {
   );
 }
 
+/** What of the input was not read, or read otherwise than it was meant. */
+function notes_list(notes = []) {
+  if (notes.length === 0) return null;
+  return el(
+    "section",
+    { class: "notes", "aria-label": "Notes" },
+    el("h2", {}, notes.length === 1 ? "Note" : "Notes"),
+    el(
+      "ul",
+      {},
+      notes.map((note) =>
+        el(
+          "li",
+          { "data-code": note.code },
+          note.where ? el("span", { class: "muted" }, `${note.where}: `) : null,
+          note.text,
+        ),
+      ),
+    ),
+  );
+}
+
 function linear_links(run, picture_url) {
   const files = [["Reference", run.reference], ...run.results.map((result) => [result.label, result])]
     .flatMap(([label, owner]) =>
@@ -328,6 +350,7 @@ export function report_view(report, { picture_url, methods = [], metrics = [], a
     actions.length > 0 ? el("div", { class: "actions" }, actions) : null,
     software_notice(report.device),
     report.error ? el("p", { class: "notice error", role: "alert" }, error_text(report.error)) : null,
+    notes_list(report.notes),
     checks_list(report),
     suite_section(report),
     sweep ? [sweep.element, sweep.point_choice] : null,

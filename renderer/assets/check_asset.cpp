@@ -22,7 +22,10 @@ AssetKind picture_kind(const char* media_type, PictureFormat format, std::vector
         if (const PictureHeader header = read_picture_header(bytes); header.format != format)
             throw AssetError(fmt::format("the file is a {}, not a {}", name_of(header.format), name_of(format)));
         const PictureFacts facts = decode_picture(bytes, [](int, const float*) {});
-        return json{{"width", facts.header.width_px}, {"height", facts.header.height_px}, {"channels", facts.channels}};
+        return json{{"width", facts.header.width_px},
+                    {"height", facts.header.height_px},
+                    {"channels", facts.channels},
+                    {"notes", to_json(facts.notes)}};
     };
     return {media_type, "texture", check, std::move(suffixes)};
 }
@@ -53,8 +56,10 @@ AssetKind model_kind(const char* media_type, bool binary, std::vector<std::strin
         const Model model = read_model(bytes, no_other_files);
         std::size_t triangles = 0;
         for (const ModelPart& part : model.parts) triangles += part.indices.size() / 3;
-        return json{
-            {"triangles", triangles}, {"materials", model.materials.size()}, {"pictures", model.pictures.size()}};
+        return json{{"triangles", triangles},
+                    {"materials", model.materials.size()},
+                    {"pictures", model.pictures.size()},
+                    {"notes", to_json(model.notes)}};
     };
     return {media_type, "model", check, std::move(suffixes)};
 }

@@ -121,7 +121,7 @@ Picture read_picture(std::string_view bytes, int width_px, int height_px) {
     const PictureHeader header = read_picture_header(bytes);
     Scaler scaler(header.width_px, header.height_px, width_px, height_px);
     const PictureFacts facts = decode_picture(bytes, [&](int y, const float* rgba) { scaler.add_row(y, rgba); });
-    Picture picture{scaler.finish(), facts.eight_bit};
+    Picture picture{scaler.finish(), facts.eight_bit, facts.notes};
     // Interpolation overshoots at edges, and what a 16-bit float cannot hold would become infinite on the device.
     const float greatest = facts.eight_bit ? 1.0f : max_half;
     for (float& value : picture.image.rgba) value = std::min(value, greatest);

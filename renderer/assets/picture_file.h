@@ -1,16 +1,19 @@
 #pragma once
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "renderer/assets/picture_header.h"
+#include "renderer/notes.h"
 
 namespace sheer {
 
 /// What is known of a picture once all of it is decoded.
 struct PictureFacts {
     PictureHeader header;
-    int channels = 0;       ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
-    bool eight_bit = true;  ///< else 16-bit whole numbers or floats
+    int channels = 0;         ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
+    bool eight_bit = true;    ///< else 16-bit whole numbers or floats
+    std::vector<Note> notes;  ///< what of the file was read otherwise
 };
 
 /// A row from the top: 4 channels a pixel, straight alpha, values as in the file (8 and 16 bits as fractions of 1).

@@ -142,11 +142,12 @@ Volume read_volume(std::string_view bytes, const std::optional<RawVolume>& raw) 
 
 nlohmann::json describe_nrrd(std::string_view bytes) {
     const VoxelLayout layout = read_nrrd_header(bytes).layout;
-    read_volume(bytes, std::nullopt);
+    const Volume volume = read_volume(bytes, std::nullopt);
     return {{"size", {layout.size.x, layout.size.y, layout.size.z}},
             {"spacing", {layout.spacing.x, layout.spacing.y, layout.spacing.z}},
             {"voxel", name_of(layout.type)},
-            {"encoding", layout.gzip ? "gzip" : "raw"}};
+            {"encoding", layout.gzip ? "gzip" : "raw"},
+            {"notes", to_json(volume.notes)}};
 }
 
 }  // namespace sheer

@@ -43,6 +43,17 @@ std::string limits(const json& check) {
     return text;
 }
 
+std::string note_properties(const json& notes) {
+    if (notes.empty()) return "";
+    std::string properties;
+    for (const json& note : notes) {
+        const std::string where = note["where"].is_null() ? "" : note["where"].get<std::string>() + ": ";
+        properties += fmt::format("    <property name=\"note.{}\" value=\"{}\"/>\n", escaped(note["code"]),
+                                  escaped(where + note["text"].get<std::string>()));
+    }
+    return "  <properties>\n" + properties + "  </properties>\n";
+}
+
 }  // namespace
 
 std::string report_junit(const json& report) {
@@ -77,8 +88,9 @@ std::string report_junit(const json& report) {
     }
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
-        "errors=\"0\" skipped=\"{}\" timestamp=\"{}\">\n{}</testsuite>\n",
-        escaped(report["spec"]["title"]), count, failures, skipped, escaped(report["created_at"]), cases);
+        "errors=\"0\" skipped=\"{}\" timestamp=\"{}\">\n{}{}</testsuite>\n",
+        escaped(report["spec"]["title"]), count, failures, skipped, escaped(report["created_at"]),
+        note_properties(report.value("notes", json::array())), cases);
 }
 
 }  // namespace sheer

@@ -79,6 +79,7 @@ class RunWriter {
                     {"reference", reference},
                     {"rounds", {{"asked", m_spec.timing.rounds}, {"done", m_run.rounds_done}}},
                     {"noise_floor", m_timings.noise()},
+                    {"notes", to_json(m_run.notes)},
                     {"results", results}};
         run["frontier"] = frontier(run, m_spec.baseline);
         return run;
@@ -108,7 +109,8 @@ class RunWriter {
                        {"fragments", nullptr},
                        {"metrics", nullptr},
                        {"memory_bytes", nullptr},
-                       {"findings", result.findings}};
+                       {"findings", result.findings},
+                       {"notes", to_json(result.notes)}};
         if (result.status != "ok") return object;
         object["images"] = pictures(result.image, name, m_run.image.format != PixelFormat::rgba8);
         object["images"].update(count_images(result, name));
@@ -233,6 +235,20 @@ json check_all(const std::vector<CheckSpec>& checks, const json& runs) {
     return all;
 }
 
+/// Every note of the runs and their results, each once.
+json all_notes(const json& runs) {
+    json all = json::array();
+    const auto add = [&](const json& notes) {
+        for (const json& note : notes)
+            if (std::ranges::find(all, note) == all.end()) all.push_back(note);
+    };
+    for (const json& run : runs) {
+        add(run["notes"]);
+        for (const json& result : run["results"]) add(result["notes"]);
+    }
+    return all;
+}
+
 std::string verdict_of(const json& checks) {
     if (checks.empty()) return "none";
     return std::ranges::all_of(checks, [](const json& check) { return check["passed"].get<bool>(); }) ? "passed"
@@ -262,6 +278,7 @@ json ReportMaker::finish() {
     if (const Suite* suite = find_suite(m_spec.suite)) m_report["suite"] = suite_report(*suite, runs);
     m_report["checks"] = check_all(m_spec.checks, runs);
     m_report["verdict"] = verdict_of(m_report["checks"]);
+    m_report["notes"] = all_notes(runs);
     json& load = m_report["provenance"]["load"];
     load["end"] = load_average();
     if (load["start"].is_null() || load["end"].is_null()) load["reason"] = "/proc/loadavg does not say";

@@ -81,7 +81,7 @@ std::string time_table(const json& run) {
 }
 
 /// What the columns mean, and how far the times can be trusted.
-std::string notes(const json& run, const std::string& baseline) {
+std::string captions(const json& run, const std::string& baseline) {
     std::string text =
         fmt::format("d: {} minus method, in 8-bit levels.", run["reference"]["method"].get<std::string>());
     const json& residual = run["reference"]["residual"]["depth_peeling"];
@@ -92,6 +92,16 @@ std::string notes(const json& run, const std::string& baseline) {
     if (!run["noise_floor"].is_null())
         text += fmt::format(" Noise floor, {} against itself: {}.", baseline, interval(run["noise_floor"]));
     return text + "\n";
+}
+
+std::string note_lines(const json& notes) {
+    std::string text;
+    for (const json& note : notes) {
+        text += "Note: ";
+        if (!note["where"].is_null()) text += note["where"].get<std::string>() + ": ";
+        text += note["text"].get<std::string>() + "\n";
+    }
+    return text;
 }
 
 std::string published_text(const json& published) {
@@ -123,13 +133,15 @@ std::string report_table(const json& report) {
     const bool software = device["software"].get<bool>();
     if (software)
         text += "Times on a software rasteriser do not predict those on a GPU; counts of fragments come nearer.\n";
+    // Reports made before there were notes have none.
+    text += note_lines(report.value("notes", json::array()));
     for (const json& run : report["runs"]) {
         text += "\n";
         if (!run["point"].empty()) text += "At " + describe_point(run["point"]) + "\n";
         const std::string fragments = fragment_table(run), times = time_table(run);
         text += software ? fragments + "\n" + times : times + "\n" + fragments;
         text += "\n";
-        text += notes(run, report["spec"]["baseline"]);
+        text += captions(run, report["spec"]["baseline"]);
         if (run["frontier"].is_object())
             for (const auto& sentence : run["frontier"]["sentences"]) text += sentence.get<std::string>() + "\n";
     }

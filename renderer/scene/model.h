@@ -39,6 +39,7 @@ struct Model {
     std::vector<ModelPart> parts;
     std::vector<Material> materials;
     std::vector<Picture> pictures;  ///< all of one size; width and height are powers of two
+    std::vector<Note> notes;        ///< what of the file was not read, or read otherwise
 };
 
 /// Linear light 0..1 as the display value that stands for it (IEC 61966-2-1); outside of 0..1 it is clamped.

@@ -1,12 +1,16 @@
 #pragma once
+#include <vector>
+
 #include "renderer/frame/image.h"
+#include "renderer/notes.h"
 
 namespace sheer {
 
 /// A picture from a file, for textures: straight alpha, rows from the top down.
 struct Picture {
     Image image;
-    bool eight_bit = true;  ///< the file has 8 bits a channel, so that 8 bits keep all of it
+    bool eight_bit = true;    ///< the file has 8 bits a channel, so that 8 bits keep all of it
+    std::vector<Note> notes;  ///< what of the file was read otherwise
 };
 
 }  // namespace sheer

@@ -46,6 +46,7 @@ Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, Ass
             if (reference.pointer != field) continue;
             const int size_px = scene.at("texture").at("size");
             geometry.texture = assets.picture(reference.name, size_px, size_px);
+            add_notes_of(geometry.notes, geometry.texture->notes, field);
         }
         return geometry;
     } catch (const AssetError& error) {

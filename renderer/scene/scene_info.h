@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/notes.h"
 #include "renderer/scene/assets.h"
 #include "renderer/scene/volume_shading.h"
 #include "renderer/spec/param.h"
@@ -50,7 +51,8 @@ struct Geometry {
     std::vector<Picture> pictures;   ///< of the materials; all of one size
     std::optional<Picture> texture;  ///< square; in place of the four procedural textures
     std::optional<VolumeShading> volume;
-    bool parallel = false;  ///< drawing the primitives in depth order is exact: none intersect, each has one depth
+    bool parallel = false;    ///< drawing the primitives in depth order is exact: none intersect, each has one depth
+    std::vector<Note> notes;  ///< of the files that the scene is made from
 
     /// Appends a rectangle parallel to the screen: corners in fractions of the image, origin top left, y down.
     /// `uv_turn` 0..7 picks one of the rotations and mirrorings of the texture.

@@ -3,6 +3,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "renderer/notes.h"
+
 namespace sheer {
 
 /// Scalars of 0..1 on a grid, x fastest, then y, then z.
@@ -11,6 +13,7 @@ struct Volume {
     glm::dvec3 spacing{1};            ///< from voxel to voxel; only their ratios matter
     std::vector<std::uint8_t> bytes;  ///< 255 for 1; empty where `floats` holds the voxels
     std::vector<float> floats;
+    std::vector<Note> notes;  ///< what of the file was not read, or read otherwise
 
     std::size_t voxel_count() const {
         return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);

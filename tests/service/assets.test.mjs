@@ -44,7 +44,7 @@ test("an upload is kept once and becomes the texture of a report", async () => {
     const { created_at, ...rest } = asset;
     assert.ok(Math.abs(Date.now() - Date.parse(created_at)) < 600_000);
     assert.deepEqual(rest, { sha256: SHA256, type: "texture", media_type: "image/png", name: "rust.png",
-                             bytes: PICTURE.length, width: 4, height: 4, channels: 3, url: `/api/v1/assets/${SHA256}` });
+                             bytes: PICTURE.length, width: 4, height: 4, channels: 3, notes: [], url: `/api/v1/assets/${SHA256}` });
     const again = await upload(service, PICTURE, "Image/PNG; x=y", "?name=another");
     assert.equal(again.status, 200);
     assert.deepEqual(await again.json(), asset);

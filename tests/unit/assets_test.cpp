@@ -212,7 +212,8 @@ class AssetFiles : public ::testing::Test {
 
 TEST_F(AssetFiles, AreCheckedByWhatTheyAreSaidToBe) {
     const auto png = m_folder.file("a", m_png);
-    EXPECT_EQ(check_asset(png, "image/png"), (json{{"width", 3}, {"height", 2}, {"channels", 4}}));
+    EXPECT_EQ(check_asset(png, "image/png"),
+              (json{{"width", 3}, {"height", 2}, {"channels", 4}, {"notes", json::array()}}));
     EXPECT_THAT(refusal([&] { check_asset(png, "image/jpeg"); }), HasSubstr("is a PNG, not a JPEG"));
     EXPECT_THAT(refusal([&] { check_asset(png, "image/gif"); }), HasSubstr("image/gif are not taken"));
     EXPECT_THAT(refusal([&] { check_asset(m_folder.file("empty", ""), "image/png"); }), HasSubstr("empty"));

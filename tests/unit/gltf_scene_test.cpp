@@ -123,7 +123,7 @@ TEST_F(GltfScene, AModelThatCannotBeReadIsAnErrorAtItsField) {
 
 TEST_F(GltfScene, UploadsAreChecked) {
     const std::string glb = square("BLEND").glb(), gltf = square("BLEND").gltf();
-    const json facts = {{"triangles", 2}, {"materials", 1}, {"pictures", 0}};
+    const json facts = {{"triangles", 2}, {"materials", 1}, {"pictures", 0}, {"notes", json::array()}};
     EXPECT_EQ(check_asset(m_folder.file("a", glb), "model/gltf-binary"), facts);
     EXPECT_EQ(check_asset(m_folder.file("b", gltf), "model/gltf+json"), facts);
     EXPECT_THROW(check_asset(m_folder.file("a", glb), "model/gltf+json"), AssetError);

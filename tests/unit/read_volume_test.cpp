@@ -100,8 +100,11 @@ TEST(Nrrd, WhereAllFloatsAreEqualTheyAre0) {
 
 TEST(Nrrd, IsDescribed) {
     const auto facts = describe_nrrd(nrrd("type: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n", "ab"));
-    EXPECT_EQ(facts, nlohmann::json(
-                         {{"size", {2, 1, 1}}, {"spacing", {1.0, 1.0, 1.0}}, {"voxel", "uint8"}, {"encoding", "raw"}}));
+    EXPECT_EQ(facts, nlohmann::json({{"size", {2, 1, 1}},
+                                     {"spacing", {1.0, 1.0, 1.0}},
+                                     {"voxel", "uint8"},
+                                     {"encoding", "raw"},
+                                     {"notes", nlohmann::json::array()}}));
 }
 
 struct Broken {

@@ -138,6 +138,23 @@ TEST_F(ReportFixture, IntervalsAreCorrectedForTheNumberOfMethods) {
     EXPECT_EQ(speedup["verdict"], "not resolved");
 }
 
+TEST_F(ReportFixture, NotesAreTheReportsOnceAndReachTableAndJunit) {
+    const Note skipped{"extension-ignored", "KHR_x & y is left out.", "/scene/model: materials[2]"};
+    runs[0].notes = {skipped};
+    runs[0].results[1].notes = {{"too-bright", "Sums overflowed.", ""}};
+    runs.push_back(runs[0]);
+    const json made = report();
+    EXPECT_EQ(made["notes"], json::parse(R"([{"code": "extension-ignored", "text": "KHR_x & y is left out.",
+                               "where": "/scene/model: materials[2]"},
+                              {"code": "too-bright", "text": "Sums overflowed.", "where": null}])"));
+    EXPECT_EQ(made["runs"][1]["notes"], json::array({made["notes"][0]}));
+    EXPECT_EQ(made["runs"][1]["results"][1]["notes"], json::array({made["notes"][1]}));
+    EXPECT_THAT(report_table(made), HasSubstr("Note: /scene/model: materials[2]: KHR_x & y is left out.\n"
+                                              "Note: Sums overflowed.\n"));
+    EXPECT_THAT(report_junit(made), HasSubstr("<property name=\"note.extension-ignored\" "
+                                              "value=\"/scene/model: materials[2]: KHR_x &amp; y is left out.\"/>"));
+}
+
 TEST_F(ReportFixture, OutliersAreMarkedAndKept) {
     runs[0].results[1].samples[2] = sample(900, 810);
     const json timing = report()["runs"][0]["results"][1]["timing"];

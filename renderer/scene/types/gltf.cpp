@@ -85,6 +85,7 @@ class Builder {
 Geometry build_gltf(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets) {
     const Model model = assets.model(scene.at("model"));
     Geometry geometry = Builder(model, scene.at("light") == "daylight").build();
+    add_notes_of(geometry.notes, model.notes, "/scene/model");
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
     Sphere bounds = bounding_sphere(geometry.vertices);
     if (bounds.radius == 0) bounds.radius = 1;

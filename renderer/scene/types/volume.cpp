@@ -152,6 +152,7 @@ Geometry build_volume(const json& scene, const ImageSpec& image, AssetReader& as
     Volume volume = read_volume(scene.at("volume"), assets);
     const Box box{volume.sides() * (longest_side / 2)};
     Geometry geometry;
+    add_notes_of(geometry.notes, volume.notes, "/scene/volume");
     if (scene.at("frame").get<bool>()) add_frame(geometry, box);
     std::vector<Vertex> whole = geometry.vertices;
     for (unsigned i = 0; i < 8; ++i) whole.push_back({glm::vec3(box.corner(i)), {}, {}, 0});
