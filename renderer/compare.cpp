@@ -38,6 +38,7 @@ class Comparer {
         check_loops(m_context.gl(), scene, m_spec.image);
         Run run;
         run.notes = geometry.notes;
+        run.files = source_files(m_spec.scene, m_assets);
         render_reference(scene, run);
         Target target(m_context.gl(), m_spec.image, m_spec.image.format);
         make_methods(scene, target, run);

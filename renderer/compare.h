@@ -12,6 +12,7 @@
 #include "renderer/gl/timer.h"
 #include "renderer/metrics/metric.h"
 #include "renderer/scene/assets.h"
+#include "renderer/scene/scene_info.h"
 #include "renderer/spec/spec.h"
 
 namespace sheer {
@@ -54,7 +55,8 @@ struct Run {
     /// Frames of a second instance of the baseline, in the same rounds; none where the baseline cannot run.
     std::vector<gl::FrameSample> baseline_again;
     int rounds_done = 0;
-    std::vector<Note> notes;  ///< of the scene and its files
+    std::vector<Note> notes;        ///< of the scene and its files
+    std::vector<SourceFile> files;  ///< that the scene is made from
 };
 
 /// What a comparison runs on.

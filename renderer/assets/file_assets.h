@@ -20,13 +20,19 @@ class FileAssets : public AssetReader {
     Picture picture(const std::string& name, int width_px, int height_px) override;
     Volume volume(const std::string& name, const std::optional<RawVolume>& raw) override;
     Model model(const std::string& name) override;
+    std::vector<AssetFile> files() const override { return m_files; }
 
   private:
+    std::string read(const std::string& name);
+    void remember(const std::string& name, const std::string& of, std::string_view bytes);
+
     Resolver m_resolve;
     Neighbours m_neighbours;
+    std::vector<AssetFile> m_files;
 };
 
-/// Names are paths, those that are not absolute within `folder`.
+/// Names are paths, those that are not absolute within `folder`. What is not there is told with the path that was
+/// looked at, so this is for whoever sits at this machine.
 FileAssets assets_in_folder(std::filesystem::path folder);
 
 }  // namespace sheer

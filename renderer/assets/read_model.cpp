@@ -303,7 +303,9 @@ OtherFiles files_below(const std::filesystem::path& folder) {
         std::error_code error;
         const std::filesystem::path root = std::filesystem::canonical(folder, error),
                                     file = error ? root : std::filesystem::canonical(root / name, error);
-        if (error) throw AssetError(fmt::format("the file needs another file, \"{:.80}\", which is not there", name));
+        if (error)
+            throw AssetError(fmt::format("the file needs another file, \"{:.80}\", which is not there: {}", name,
+                                         std::filesystem::absolute(folder / name).lexically_normal().string()));
         const auto [end, ignored] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
         if (end != root.end() || file == root)
             throw AssetError(fmt::format("the file needs another file, \"{:.80}\", which is not in its folder", name));

@@ -1,15 +1,11 @@
 #include "renderer/report/report.h"
 
-#include <openssl/evp.h>
-
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 #include <thread>
 
 #include "renderer/frame/magma.h"
@@ -80,6 +76,7 @@ class RunWriter {
                     {"rounds", {{"asked", m_spec.timing.rounds}, {"done", m_run.rounds_done}}},
                     {"noise_floor", m_timings.noise()},
                     {"notes", to_json(m_run.notes)},
+                    {"files", to_json(m_run.files)},
                     {"results", results}};
         run["frontier"] = frontier(run, m_spec.baseline);
         return run;
@@ -235,17 +232,26 @@ json check_all(const std::vector<CheckSpec>& checks, const json& runs) {
     return all;
 }
 
+/// Appends those of `more` that are not there yet.
+void add_new(json& all, const json& more) {
+    for (const json& one : more)
+        if (std::ranges::find(all, one) == all.end()) all.push_back(one);
+}
+
 /// Every note of the runs and their results, each once.
 json all_notes(const json& runs) {
     json all = json::array();
-    const auto add = [&](const json& notes) {
-        for (const json& note : notes)
-            if (std::ranges::find(all, note) == all.end()) all.push_back(note);
-    };
     for (const json& run : runs) {
-        add(run["notes"]);
-        for (const json& result : run["results"]) add(result["notes"]);
+        add_new(all, run["notes"]);
+        for (const json& result : run["results"]) add_new(all, result["notes"]);
     }
+    return all;
+}
+
+/// Every file of the runs, each once.
+json all_files(const json& runs) {
+    json all = json::array();
+    for (const json& run : runs) add_new(all, run["files"]);
     return all;
 }
 
@@ -279,6 +285,7 @@ json ReportMaker::finish() {
     m_report["checks"] = check_all(m_spec.checks, runs);
     m_report["verdict"] = verdict_of(m_report["checks"]);
     m_report["notes"] = all_notes(runs);
+    m_report["files"] = all_files(runs);
     json& load = m_report["provenance"]["load"];
     load["end"] = load_average();
     if (load["start"].is_null() || load["end"].is_null()) load["reason"] = "/proc/loadavg does not say";
@@ -289,15 +296,6 @@ json ReportMaker::finish() {
 std::string context_arguments(const Device& device) {
     if (device.info.context.empty() || device.info.name.empty()) return "";
     return fmt::format(" --context {} --device {}", device.info.context, device.info.name);
-}
-
-std::string sha256_hex(const std::string& bytes) {
-    std::array<unsigned char, 32> digest;
-    if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
-        throw std::runtime_error("SHA-256 failed");
-    std::string text;
-    for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
-    return text;
 }
 
 std::string utc_now() {

@@ -4,6 +4,7 @@
 
 #include "renderer/compare.h"
 #include "renderer/report/picture_sink.h"
+#include "renderer/sha256.h"
 
 namespace sheer {
 
@@ -31,8 +32,6 @@ std::string report_table(const nlohmann::json& report);
 /// JUnit XML: a test case for each check and one for the rendering of each method.
 std::string report_junit(const nlohmann::json& report);
 
-/// Lower-case hexadecimal SHA-256.
-std::string sha256_hex(const std::string& bytes);
 /// Now in UTC, RFC 3339 with milliseconds.
 std::string utc_now();
 

@@ -1,7 +1,9 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "renderer/scene/model.h"
 #include "renderer/scene/picture.h"
@@ -14,6 +16,16 @@ struct RawVolume {
     glm::ivec3 size;
     glm::dvec3 spacing{1};
     std::string voxel;  ///< uint8, uint16 or float32
+};
+
+/// A file that was read, by what it held.
+struct AssetFile {
+    std::string name;    ///< as an AssetReader takes it; of a file beside a model, below the same folder as the model's
+    std::string of;      ///< the name of the file that needs it; "" for one that the spec itself names
+    std::string sha256;  ///< lower-case hexadecimal
+    std::uint64_t bytes = 0;
+
+    bool operator==(const AssetFile&) const = default;
 };
 
 /// A file is not what the spec says it is, or is not there; the text is meant for the caller and names no path of ours.
@@ -34,6 +46,8 @@ class AssetReader {
     virtual Volume volume(const std::string& name, const std::optional<RawVolume>& raw) = 0;
     /// A glTF 2.0 file.
     virtual Model model(const std::string& name) = 0;
+    /// Every file that was read so far, those beside a model among them, as it was when it was read last.
+    virtual std::vector<AssetFile> files() const { return {}; }
 };
 
 /// For where there are no files: everything is an AssetError.

@@ -58,6 +58,27 @@ std::vector<AssetReference> scene_assets(const nlohmann::json& scene) {
     return find_assets(scene, "/scene", find_scene(scene.at("type"))->all_parameters());
 }
 
+std::vector<SourceFile> source_files(const nlohmann::json& scene, const AssetReader& assets) {
+    std::vector<SourceFile> found;
+    const std::vector<AssetFile> files = assets.files();
+    for (const AssetReference& reference : scene_assets(scene))
+        for (const AssetFile& file : files)
+            if (file.of.empty() ? file.name == reference.name : file.of == reference.name)
+                found.push_back({reference.pointer, file});
+    return found;
+}
+
+nlohmann::json to_json(const std::vector<SourceFile>& files) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const auto& [pointer, file] : files)
+        all.push_back({{"pointer", pointer},
+                       {"name", file.name},
+                       {"of", file.of.empty() ? nlohmann::json() : nlohmann::json(file.of)},
+                       {"sha256", file.sha256},
+                       {"bytes", file.bytes}});
+    return all;
+}
+
 void Geometry::add_rect(double x0, double y0, double x1, double y1, float depth, const glm::vec4& tint, bool opaque,
                         unsigned uv_turn) {
     const auto primitive = static_cast<std::uint32_t>(primitives.size());

@@ -91,4 +91,16 @@ Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, Ass
 /// Every file that a normalised scene refers to, with pointers from /scene.
 std::vector<AssetReference> scene_assets(const nlohmann::json& scene);
 
+/// A file that a scene drew from.
+struct SourceFile {
+    std::string pointer;  ///< the field of the spec that leads to it
+    AssetFile file;
+
+    bool operator==(const SourceFile&) const = default;
+};
+/// Those of the files that `assets` has read which belong to this scene.
+std::vector<SourceFile> source_files(const nlohmann::json& scene, const AssetReader& assets);
+/// {pointer, name, of, sha256, bytes} of each; `of` is null for a file that the spec itself names.
+nlohmann::json to_json(const std::vector<SourceFile>& files);
+
 }  // namespace sheer

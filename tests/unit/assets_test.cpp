@@ -6,6 +6,7 @@
 #include "renderer/assets/file_assets.h"
 #include "renderer/assets/picture_file.h"
 #include "renderer/assets/scaler.h"
+#include "renderer/sha256.h"
 #include "tests/unit/asset_pictures.h"
 #include "tests/unit/temporary_folder.h"
 
@@ -13,6 +14,7 @@ namespace sheer::assets_test {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
@@ -238,8 +240,43 @@ TEST_F(AssetFiles, AreFoundByTheirNames) {
     EXPECT_EQ(picture.image.width_px, 3);
     EXPECT_EQ(picture.image.height_px, 2);
     EXPECT_EQ(assets.picture((m_folder.path() / "leaf.png").string(), 3, 2).image.rgba, picture.image.rgba);
-    EXPECT_THAT(refusal([&] { assets.picture("no.png", 3, 2); }), HasSubstr("\"no.png\""));
+    EXPECT_THAT(refusal([&] { assets.picture("no.png", 3, 2); }),
+                AllOf(HasSubstr("\"no.png\""), HasSubstr((m_folder.path() / "no.png").string())));
     EXPECT_THAT(refusal([&] { assets.picture(".", 3, 2); }), HasSubstr("\".\""));
+}
+
+TEST_F(AssetFiles, AreKnownByTheirHashesOnceTheyAreRead) {
+    std::filesystem::create_directories(m_folder.path() / "models/parts");
+    const std::string triangle(36, '\0');
+    m_folder.file("models/parts/my data.bin", triangle);
+    const json document = {
+        {"asset", {{"version", "2.0"}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0}}}}},
+        {"nodes", {{{"mesh", 0}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}},
+        {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+        {"buffers", {{{"byteLength", 36}, {"uri", "parts/my%20data.bin"}}}}};
+    m_folder.file("models/one.gltf", document.dump());
+    m_folder.file("leaf.png", m_png);
+    FileAssets assets = assets_in_folder(m_folder.path());
+    EXPECT_TRUE(assets.files().empty());
+    assets.model("models/one.gltf");
+    assets.picture("leaf.png", 2, 2);
+    assets.picture("leaf.png", 4, 4);
+    // The hash of 36 zero bytes is coreutils' sha256sum's.
+    const std::string zeros = "6db65fd59fd356f6729140571b5bcd6bb3b83492a16e1bf0a3884442fc3c8a0e";
+    const std::vector<AssetFile> expected = {
+        {"models/one.gltf", "", sha256_hex(document.dump()), document.dump().size()},
+        {"models/parts/my data.bin", "models/one.gltf", zeros, 36},
+        {"leaf.png", "", sha256_hex(m_png), m_png.size()}};
+    EXPECT_EQ(assets.files(), expected);
+
+    m_folder.file("leaf.png", encode_picture<std::uint8_t>("png", 1, 1, 1, {7}));
+    assets.picture("leaf.png", 2, 2);
+    ASSERT_EQ(assets.files().size(), 3u) << "as it was read last";
+    EXPECT_NE(assets.files()[2].sha256, expected[2].sha256);
 }
 
 }  // namespace

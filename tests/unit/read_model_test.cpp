@@ -217,7 +217,8 @@ TEST(ReadModel, FilesBesideIt) {
     const OtherFiles others = files_below(folder.path() / "model");
     EXPECT_EQ(read_model(with_uri("parts/my%20data.bin"), others).parts.size(), 1u);
     EXPECT_THAT(refusal(with_uri("parts/my%20data.bin")), HasSubstr("needs another file, \"parts/my data.bin\""));
-    EXPECT_THAT(refusal(with_uri("missing.bin"), others), HasSubstr("\"missing.bin\", which is not there"));
+    EXPECT_THAT(refusal(with_uri("missing.bin"), others),
+                HasSubstr("\"missing.bin\", which is not there: " + (folder.path() / "model/missing.bin").string()));
     for (const char* uri : {"../outside.bin", "link.bin", "/etc/hostname", "parts/../../outside.bin"})
         EXPECT_THAT(refusal(with_uri(uri), others), HasSubstr("not in its folder")) << uri;
     EXPECT_THAT(refusal(with_uri("http://example.org/a.bin"), others), HasSubstr("not there"));

@@ -155,6 +155,21 @@ TEST_F(ReportFixture, NotesAreTheReportsOnceAndReachTableAndJunit) {
                                               "value=\"/scene/model: materials[2]: KHR_x &amp; y is left out.\"/>"));
 }
 
+TEST_F(ReportFixture, FilesAreTheReportsOnce) {
+    const SourceFile model{"/scene/model", {"a.gltf", "", "aa", 12}},
+        part{"/scene/model", {"a.bin", "a.gltf", "bb", 3}};
+    runs[0].files = {model, part};
+    runs.push_back(runs[0]);
+    // The part was written again between the two points.
+    runs[1].files[1].file.sha256 = "cc";
+    const json made = report();
+    EXPECT_EQ(made["files"], json::parse(R"([
+        {"pointer": "/scene/model", "name": "a.gltf", "of": null, "sha256": "aa", "bytes": 12},
+        {"pointer": "/scene/model", "name": "a.bin", "of": "a.gltf", "sha256": "bb", "bytes": 3},
+        {"pointer": "/scene/model", "name": "a.bin", "of": "a.gltf", "sha256": "cc", "bytes": 3}])"));
+    EXPECT_EQ(made["runs"][1]["files"], json::array({made["files"][0], made["files"][2]}));
+}
+
 TEST_F(ReportFixture, OutliersAreMarkedAndKept) {
     runs[0].results[1].samples[2] = sample(900, 810);
     const json timing = report()["runs"][0]["results"][1]["timing"];
