@@ -19,6 +19,13 @@ std::string read_asset_bytes(const std::filesystem::path& file) {
     return bytes;
 }
 
+std::string printable(std::string_view text, std::size_t most_bytes) {
+    std::string result(text.substr(0, most_bytes));
+    for (char& c : result)
+        if (c < ' ' || c > '~') c = '?';
+    return result;
+}
+
 std::string_view ByteReader::take(std::size_t count) {
     if (count > left()) throw AssetError("the file ends too early");
     const std::string_view taken = m_bytes.substr(m_position, count);
@@ -39,10 +46,10 @@ std::uint32_t ByteReader::u32_little() {
     return value;
 }
 
-std::string_view ByteReader::zero_ended_text() {
-    const std::size_t end = m_bytes.find('\0', m_position);
-    if (end == std::string_view::npos) throw AssetError("the file ends too early");
-    const std::string_view text = take(end - m_position);
+std::string_view ByteReader::take_to(char end) {
+    const std::size_t found = m_bytes.find(end, m_position);
+    if (found == std::string_view::npos) throw AssetError("the file ends too early");
+    const std::string_view text = take(found - m_position);
     skip(1);
     return text;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,6 +15,9 @@ inline constexpr std::uintmax_t max_asset_file_bytes = std::uintmax_t{1} << 30;
 /// max_asset_file_bytes.
 std::string read_asset_bytes(const std::filesystem::path& file);
 
+/// Text of a file for a message: at most `most_bytes`, and a question mark for what is not printable ASCII.
+std::string printable(std::string_view text, std::size_t most_bytes = 40);
+
 /// Reads numbers out of bytes that come from outside. Every read past the end throws AssetError.
 class ByteReader {
   public:
@@ -27,8 +31,11 @@ class ByteReader {
     std::uint16_t u16_big() { return static_cast<std::uint16_t>(big(2)); }
     std::uint32_t u32_big() { return big(4); }
     std::uint32_t u32_little();
+    float f32_little() { return std::bit_cast<float>(u32_little()); }
     /// Up to the next zero byte, which is passed.
-    std::string_view zero_ended_text();
+    std::string_view zero_ended_text() { return take_to('\0'); }
+    /// Up to the next `end`, which is passed.
+    std::string_view take_to(char end);
 
   private:
     std::uint32_t big(std::size_t count);

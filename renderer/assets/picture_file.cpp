@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "renderer/assets/file_bytes.h"
 #include "renderer/assets/scaler.h"
 
 namespace sheer {
@@ -40,46 +42,95 @@ ChannelMap map_channels(const OIIO::ImageSpec& spec) {
 
 class Decoder {
   public:
-    Decoder(std::string_view bytes, const PictureHeader& header)
-        : m_memory(bytes.data(), bytes.size()), m_header(header) {
-        m_input = OIIO::ImageInput::create(reader_name(header.format));
+    Decoder(std::string_view bytes, PictureHeader header)
+        : m_memory(bytes.data(), bytes.size()), m_header(std::move(header)) {
+        m_input = OIIO::ImageInput::create(reader_name(m_header.format));
         if (!m_input || !m_input->supports("ioproxy")) throw AssetError("pictures of this format cannot be read here");
         m_input->threads(1);
         m_input->set_ioproxy(&m_memory);
         OIIO::ImageSpec as_stored;
         as_stored["oiio:UnassociatedAlpha"] = 1;
         if (!m_input->open("picture", m_spec, as_stored)) fail();
-        if (m_spec.width != header.width_px || m_spec.height != header.height_px || m_spec.depth > 1)
+        m_width = m_header.width_px;
+        m_height = m_header.height_px;
+        if (is_transposed(m_header)) std::swap(m_width, m_height);
+        if (m_spec.full_width != m_width || m_spec.full_height != m_height || m_spec.depth > 1)
             throw AssetError("the picture's header and its data have different sizes");
         m_channels = map_channels(m_spec);
-    }
-
-    PictureFacts facts() const {
-        return {m_header, (m_channels.grey ? 1 : 3) + (m_channels.alpha >= 0), m_spec.format.basesize() == 1};
+        note_profile();
     }
 
     void read(const RowFunction& row) {
         const int rows = m_spec.tile_height > 0 ? m_spec.tile_height : rows_at_a_time;
         const std::size_t row_values = static_cast<std::size_t>(m_spec.width) * m_spec.nchannels;
         std::vector<float> values(row_values * static_cast<std::size_t>(std::min(rows, m_spec.height)));
-        std::vector<float> rgba(static_cast<std::size_t>(m_spec.width) * 4);
+        const int above = m_spec.y - m_spec.full_y;
         for (int y = 0; y < m_spec.height; y += rows) {
             const int end = std::min(y + rows, m_spec.height);
             if (!read_rows(y, end, values.data())) fail();
+            refuse_damage();
             for (int i = y; i < end; ++i) {
-                convert(&values[row_values * static_cast<std::size_t>(i - y)], rgba.data());
-                row(i, rgba.data());
+                place(&values[row_values * static_cast<std::size_t>(i - y)]);
+                if (above + i >= 0 && above + i < m_height) row(above + i, m_row.data());
             }
         }
+    }
+
+    PictureFacts facts() {
+        if (m_clamped)
+            add_note(m_header.notes,
+                     {"values-clamped",
+                      "The picture has colours under 0 or alpha outside 0 to 1; they are taken as the nearest that "
+                      "can be drawn.",
+                      ""});
+        return {m_header, (m_channels.grey ? 1 : 3) + (m_channels.alpha >= 0), m_spec.format.basesize() == 1,
+                m_header.notes};
     }
 
   private:
     static constexpr int rows_at_a_time = 256;
 
+    /// A line of OpenImageIO's without the name of the file, which is ours.
+    static std::string message_of(std::string_view line) {
+        line = line.substr(0, line.find(" (\"picture\")"));
+        constexpr std::string_view prefix = "JPEG error: ";
+        if (line.starts_with(prefix)) line.remove_prefix(prefix.size());
+        return printable(line, 200);
+    }
+
     [[noreturn]] void fail() {
         const std::string why = m_input->geterror();
         throw AssetError(fmt::format("the {} cannot be decoded{}{}", name_of(m_header.format), why.empty() ? "" : ": ",
-                                     why.substr(0, why.find('\n'))));
+                                     message_of(std::string_view(why).substr(0, why.find('\n')))));
+    }
+
+    /// libjpeg fills up what is missing or damaged with grey and only warns of it. A few warnings tell of nothing that
+    /// is lost.
+    void refuse_damage() {
+        if (!m_input->has_error()) return;
+        constexpr std::string_view harmless[] = {"extraneous bytes before marker", "JFIF revision number",
+                                                 "Invalid SOS parameters"};
+        const std::string warnings = m_input->geterror();
+        for (std::size_t begin = 0; begin < warnings.size();) {
+            const std::size_t end = std::min(warnings.find('\n', begin), warnings.size());
+            const std::string line = message_of(std::string_view(warnings).substr(begin, end - begin));
+            begin = end + 1;
+            if (std::ranges::none_of(harmless, [&](std::string_view text) { return line.find(text) != line.npos; }))
+                throw AssetError(fmt::format("the {} cannot be decoded: {}", name_of(m_header.format), line));
+            add_note(m_header.notes, {"decoder-warning", fmt::format("The decoder says: {}.", line), ""});
+        }
+    }
+
+    /// Profiles are not applied, as values are blended as they are; that of sRGB would change nothing.
+    void note_profile() {
+        if (m_spec.find_attribute("ICCProfile") == nullptr) return;
+        const std::string name(m_spec.get_string_attribute("ICCProfile:profile_description"));
+        if (name.find("sRGB") != std::string::npos) return;
+        add_note(m_header.notes,
+                 {"profile-ignored",
+                  fmt::format("The picture has the ICC profile \"{}\"; its values are taken as they are.",
+                              printable(name, 80)),
+                  ""});
     }
 
     bool read_rows(int begin, int end, float* out) {
@@ -90,24 +141,54 @@ class Decoder {
                                    OIIO::TypeDesc::FLOAT, out);
     }
 
-    void convert(const float* in, float* out) const {
+    /// Puts a row of the file to where it lies within the picture; beside it the picture is transparent black.
+    void place(const float* in) {
+        m_row.assign(static_cast<std::size_t>(m_width) * 4, 0.0f);
+        const int left = m_spec.x - m_spec.full_x;
+        for (int x = std::max(0, -left); x < m_spec.width && left + x < m_width; ++x)
+            convert(in + static_cast<std::ptrdiff_t>(x) * m_spec.nchannels,
+                    &m_row[static_cast<std::size_t>(left + x) * 4]);
+    }
+
+    void convert(const float* in, float* out) {
         const bool premultiplied = m_header.format == PictureFormat::exr;
-        for (int x = 0; x < m_spec.width; ++x, in += m_spec.nchannels, out += 4) {
-            const float alpha = m_channels.alpha < 0 ? 1 : in[m_channels.alpha];
-            const float divisor = premultiplied && alpha > 0 ? alpha : 1;
-            for (int i = 0; i < 3; ++i) out[i] = in[m_channels.color[i]] / divisor;
-            out[3] = alpha;
-            if (!std::all_of(out, out + 4, [](float value) { return std::isfinite(value); }))
-                throw AssetError("the picture has pixels that are not finite numbers");
-        }
+        const float alpha = m_channels.alpha < 0 ? 1 : in[m_channels.alpha];
+        const float divisor = premultiplied && alpha > 0 ? alpha : 1;
+        for (int i = 0; i < 3; ++i) out[i] = in[m_channels.color[i]] / divisor;
+        out[3] = alpha;
+        if (!std::all_of(out, out + 4, [](float value) { return std::isfinite(value); }))
+            throw AssetError("the picture has pixels that are not finite numbers");
+        m_clamped |= alpha > 1 || std::any_of(out, out + 4, [](float value) { return value < 0; });
     }
 
     OIIO::Filesystem::IOMemReader m_memory;
     PictureHeader m_header;
     std::unique_ptr<OIIO::ImageInput> m_input;
     OIIO::ImageSpec m_spec;
+    int m_width = 0, m_height = 0;  ///< of the rows that are handed out
     ChannelMap m_channels{};
+    std::vector<float> m_row;
+    bool m_clamped = false;
 };
+
+/// From the rows of the file to what is seen, as EXIF's orientation says.
+Image turned(Image stored, int orientation) {
+    if (orientation == 1) return stored;
+    const int width = stored.width_px, height = stored.height_px;
+    const bool transposed = orientation >= 5;
+    Image seen(transposed ? height : width, transposed ? width : height);
+    for (int y = 0; y < seen.height_px; ++y) {
+        for (int x = 0; x < seen.width_px; ++x) {
+            int from_x = transposed ? y : x, from_y = transposed ? x : y;
+            if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
+                from_x = width - 1 - from_x;
+            if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
+                from_y = height - 1 - from_y;
+            std::copy_n(stored.pixel(from_x, from_y), 4, seen.pixel(x, y));
+        }
+    }
+    return seen;
+}
 
 }  // namespace
 
@@ -119,9 +200,15 @@ PictureFacts decode_picture(std::string_view bytes, const RowFunction& row) {
 
 Picture read_picture(std::string_view bytes, int width_px, int height_px) {
     const PictureHeader header = read_picture_header(bytes);
-    Scaler scaler(header.width_px, header.height_px, width_px, height_px);
-    const PictureFacts facts = decode_picture(bytes, [&](int y, const float* rgba) { scaler.add_row(y, rgba); });
-    Picture picture{scaler.finish(), facts.eight_bit, facts.notes};
+    const bool transposed = is_transposed(header);
+    std::pair stored(header.width_px, header.height_px), target(width_px, height_px);
+    for (auto* size : {&stored, &target})
+        if (transposed) std::swap(size->first, size->second);
+    Scaler scaler(stored.first, stored.second, target.first, target.second);
+    Decoder decoder(bytes, header);
+    decoder.read([&](int y, const float* rgba) { scaler.add_row(y, rgba); });
+    const PictureFacts facts = decoder.facts();
+    Picture picture{turned(scaler.finish(), header.orientation), facts.eight_bit, facts.notes};
     // Interpolation overshoots at edges, and what a 16-bit float cannot hold would become infinite on the device.
     const float greatest = facts.eight_bit ? 1.0f : max_half;
     for (float& value : picture.image.rgba) value = std::min(value, greatest);

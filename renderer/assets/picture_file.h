@@ -16,17 +16,20 @@ struct PictureFacts {
     std::vector<Note> notes;  ///< what of the file was read otherwise
 };
 
-/// A row from the top: 4 channels a pixel, straight alpha, values as in the file (8 and 16 bits as fractions of 1).
+/// A row of the file, before it is turned by its orientation: y from the top, 4 channels a pixel, straight alpha,
+/// values as in the file (8 and 16 bits as fractions of 1). Of an OpenEXR file: a row of its display window.
 using RowFunction = std::function<void(int y, const float* rgba)>;
 
-/// Decodes a PNG, JPEG or OpenEXR picture, whose format its own first bytes say, and hands out every row once.
+/// Decodes a PNG, JPEG or OpenEXR picture, whose format its own first bytes say, and hands out every row once, but
+/// not those that have no pixel in an OpenEXR file's data window: they are transparent black.
 /// OpenEXR's colours are premultiplied in the file; they are divided by their alpha where that is not 0.
-/// Throws AssetError for what cannot be decoded and for pixels that are not finite.
+/// Throws AssetError for what read_picture_header refuses, what cannot be decoded as a whole, and for pixels that are
+/// not finite.
 PictureFacts decode_picture(std::string_view bytes, const RowFunction& row);
 
-/// The picture scaled to this size. No transfer function is applied: the methods blend the values as they are.
-/// Colours are at least 0, and at most 1 (8 bits) or 65504 (the greatest 16-bit float).
-/// A spec's texture, or one inside a model. Throws AssetError.
+/// The picture as it is seen, turned by its orientation, scaled to this size. No transfer function is applied: the
+/// methods blend the values as they are. Colours are at least 0, and at most 1 (8 bits) or 65504 (the greatest 16-bit
+/// float). A spec's texture, or one inside a model. Throws AssetError.
 Picture read_picture(std::string_view bytes, int width_px, int height_px);
 
 }  // namespace sheer

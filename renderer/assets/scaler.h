@@ -15,7 +15,8 @@ class Scaler {
     /// All in pixels and at least 1.
     Scaler(int source_width, int source_height, int target_width, int target_height);
 
-    /// Row `y` from the top, `source_width` pixels of 4 channels, straight alpha. Every row once, in any order.
+    /// Row `y` from the top, `source_width` pixels of 4 channels, straight alpha. Every row once, in any order; a row
+    /// that does not come is transparent black.
     void add_row(int y, const float* rgba);
     /// Straight alpha. Alpha is in 0..1, colours are at least 0: interpolation would overshoot at edges.
     Image finish() const;
