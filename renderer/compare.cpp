@@ -7,13 +7,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <tuple>
 
 #include "renderer/frame/depth_peeler.h"
 #include "renderer/frame/loop_check.h"
 #include "renderer/frame/needed.h"
 #include "renderer/frame/overdraw.h"
-#include "renderer/frame/shading_counter.h"
 #include "renderer/methods/method.h"
 #include "renderer/scene/random.h"
 
@@ -29,7 +27,12 @@ constexpr double references_begin = 0.05, methods_begin = 0.15, timing_begin = 0
 class Comparer {
   public:
     Comparer(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress)
-        : m_spec(spec), m_context(context), m_assets(assets), m_progress(progress), m_timer(context) {}
+        : m_spec(spec),
+          m_context(context),
+          m_assets(assets),
+          m_progress(progress),
+          m_timer(context),
+          m_early_tests(context) {}
 
     Run run() {
         m_progress(0, "building the scene");
@@ -193,7 +196,8 @@ class Comparer {
             const std::string& label = contender.result->method.label;
             step(counting_begin, metrics_begin, i, m_contenders.size(), "counting the fragments of " + label);
             FragmentCounts& fragments = contender.result->fragments;
-            std::tie(fragments.shaded, fragments.no_shaded_reason) = count_shaded(*contender.method, scene, target);
+            static_cast<ShadingCount&>(fragments) =
+                count_shaded(m_context.gl(), scene, target, m_early_tests, [&] { render(*contender.method, false); });
             count_needed_by(contender.result->method, scene, target, run.overdraw, needed, fragments);
             m_context.check("counting the fragments of " + label);
         }
@@ -212,14 +216,6 @@ class Comparer {
         nlohmann::json found = method.findings(m_timer);
         m_timer.end_frame();
         return found;
-    }
-
-    std::pair<std::optional<PixelCounts>, std::string> count_shaded(Method& method, Scene& scene,
-                                                                    const Target& target) {
-        const ShadingCounter counter(m_context.gl(), scene, target);
-        render(method, false);
-        auto [shaded, reason] = counter.read();
-        return {std::move(shaded), std::move(reason)};
     }
 
     /// `known` holds what has been counted already, by threshold.
@@ -269,6 +265,7 @@ class Comparer {
     AssetReader& m_assets;
     const ProgressFunction& m_progress;
     gl::FrameTimer m_timer;
+    EarlyTests m_early_tests;
     std::vector<Contender> m_contenders;
     Backdrops m_reference_over;
 };

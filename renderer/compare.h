@@ -8,6 +8,7 @@
 
 #include "renderer/frame/image.h"
 #include "renderer/frame/pixel_counts.h"
+#include "renderer/frame/shading_counter.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/timer.h"
 #include "renderer/metrics/metric.h"
@@ -18,9 +19,7 @@
 namespace sheer {
 
 /// What a method shaded, and what it had to. Counted in frames of their own, none of which is timed.
-struct FragmentCounts {
-    std::optional<PixelCounts> shaded;  ///< calls of the scene's shading for transparent fragments
-    std::string no_shaded_reason;
+struct FragmentCounts : ShadingCount {
     std::optional<PixelCounts> needed;  ///< fragments before the transmittance is under the method's threshold
     std::string no_needed_reason;
     std::optional<PixelCounts> saturation;  ///< the fragment that saturated the pixel, from 1; methods with a threshold

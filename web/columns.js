@@ -46,6 +46,12 @@ export const FRAGMENT_COLUMNS = [
     title: "How often the method ran the scene's shading for a transparent fragment",
   },
   {
+    path: "fragments.visible",
+    head: "Visible",
+    whole: true,
+    title: "Of the shaded fragments those that depth and stencil tests let through: what is shaded at least, on any device",
+  },
+  {
     path: "fragments.needed",
     head: "Needed",
     whole: true,

@@ -50,6 +50,7 @@ export const CHECK_METRICS = [
   "timing.p95",
   "fragments.submitted",
   "fragments.shaded",
+  "fragments.visible",
   "fragments.needed",
   "fragments.efficiency",
   "memory_bytes",

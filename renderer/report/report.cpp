@@ -149,6 +149,8 @@ class RunWriter {
         std::string reason;
         json object = {{"submitted", m_run.overdraw.total()},
                        {"shaded", nullptr},
+                       {"shaded_by", nullptr},
+                       {"visible", nullptr},
                        {"needed", nullptr},
                        {"efficiency", efficiency(result, reason)}};
         if (!reason.empty()) object["efficiency_reason"] = reason;
@@ -161,6 +163,8 @@ class RunWriter {
             }
         };
         set("shaded", result.fragments.shaded, result.fragments.no_shaded_reason);
+        if (result.fragments.shaded) object["shaded_by"] = result.fragments.shaded_by;
+        set("visible", result.fragments.visible, result.fragments.no_visible_reason);
         set("needed", result.fragments.needed, result.fragments.no_needed_reason);
         return object;
     }

@@ -62,13 +62,16 @@ Row row(const json& result) {
 
 Row fragment_row(const json& result) {
     if (result["status"] != "ok") return no_result(result);
-    return {result["label"], number(result, "/fragments/submitted", "{:.0f}"),
-            number(result, "/fragments/shaded", "{:.0f}"), number(result, "/fragments/needed", "{:.0f}"),
+    return {result["label"],
+            number(result, "/fragments/submitted", "{:.0f}"),
+            number(result, "/fragments/shaded", "{:.0f}"),
+            number(result, "/fragments/visible", "{:.0f}"),
+            number(result, "/fragments/needed", "{:.0f}"),
             number(result, "/fragments/efficiency", "{:.2f}")};
 }
 
 std::string fragment_table(const json& run) {
-    std::vector<Row> rows = {{"method", "submitted", "shaded", "needed", "efficiency"}};
+    std::vector<Row> rows = {{"method", "submitted", "shaded", "visible", "needed", "efficiency"}};
     for (const json& result : run["results"]) rows.push_back(fragment_row(result));
     return aligned(rows);
 }

@@ -88,9 +88,9 @@ PixelFormat pixel_format(const std::string& name) {
 }
 
 std::vector<std::string> metric_names() {
-    std::vector<std::string> names = {"speedup",          "timing.median",        "timing.min",
-                                      "timing.p95",       "fragments.submitted",  "fragments.shaded",
-                                      "fragments.needed", "fragments.efficiency", "memory_bytes"};
+    std::vector<std::string> names = {
+        "speedup",          "timing.median",     "timing.min",       "timing.p95",           "fragments.submitted",
+        "fragments.shaded", "fragments.visible", "fragments.needed", "fragments.efficiency", "memory_bytes"};
     for (const MetricInfo& metric : all_metrics())
         for (const MetricField& field : metric.fields)
             if (field.is_number) names.push_back(field.name.empty() ? metric.id : metric.id + "." + field.name);

@@ -160,31 +160,6 @@ TEST(Fragments, AnAlphaTestIsCountedAsItsDepthTestGoes) {
         << "no depth is written";
 }
 
-/// The cap is four fragments; those under min_alpha are shaded before they are dropped, and use up none of the four.
-TEST(Fragments, AStencilCapIsCountedAsItsStencilGoes) {
-    const json scene = stack_of_layers(0.5);
-    const auto shaded = [&](double min_alpha) {
-        const json cap = {{"id", "stencil_cap"}, {"layers", 4}, {"min_alpha", min_alpha}, {"frames", 3}};
-        return run_of(scene, json::array({cap})).results[0].fragments.shaded->counts;
-    };
-    const auto capped =
-        on_the_cpu(scene, [](const auto& f) { return std::uint32_t(std::min<std::size_t>(f.size(), 4)); });
-    const auto all = on_the_cpu(scene, [](const auto& f) { return std::uint32_t(f.size()); });
-    EXPECT_EQ(shaded(0), capped.counts);
-    EXPECT_EQ(shaded(0.1), capped.counts);
-    EXPECT_EQ(shaded(0.9), all.counts);
-}
-
-/// shader_depth decides by its own texture read what the opaque pass hides, and shades all the rest.
-TEST(Fragments, AMethodThatWritesDepthIsCounted) {
-    const json scene = stack_of_layers(0.5);
-    const sheer::Run run = run_of(scene, {{{"id", "opaque_depth"}, {"variant", "shader_depth"}},
-                                          {{"id", "opaque_depth"}, {"variant", "two_pass"}}});
-    EXPECT_EQ(run.results[0].fragments.shaded->counts, run.overdraw.counts);
-    // Twice each: once to find that it is not opaque, once to blend it.
-    EXPECT_EQ(run.results[1].fragments.shaded->total(), 2 * run.overdraw.total());
-}
-
 TEST(Fragments, WhatCannotBeToldHasAReason) {
     const sheer::Run peeled = run_of(stack_of_layers(0.5), {"depth_peeling"});
     EXPECT_EQ(peeled.results[0].fragments.shaded, std::nullopt);

@@ -72,9 +72,9 @@ struct ReportFixture : testing::Test {
         run.results[1].image.pixel(2, 1)[1] = 0.2f;
         for (std::size_t i = 0; i < 2; ++i)
             run.results[i].metrics = compute_metrics(run.reference_image, run.results[i].image);
-        run.results[0].fragments = {run.overdraw, "", run.overdraw, "", {}};
-        const PixelCounts two{4, 2, std::vector<std::uint32_t>(8, 2)};
-        run.results[1].fragments = {two, "", two, "", two};
+        run.results[0].fragments = {{run.overdraw, "", "specified", run.overdraw, ""}, run.overdraw, "", {}};
+        const PixelCounts one{4, 2, std::vector<std::uint32_t>(8, 1)}, two{4, 2, std::vector<std::uint32_t>(8, 2)};
+        run.results[1].fragments = {{two, "", "probed", one, ""}, two, "", two};
         run.results[2].status = "unsupported";
         run.results[2].reason = "no <barrier>";
         runs.push_back(std::move(run));
@@ -181,6 +181,8 @@ TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsTheIdealTimeOverTheOwn) {
     json fragments = report()["runs"][0]["results"][1]["fragments"];
     EXPECT_EQ(fragments["submitted"], 80);
     EXPECT_EQ(fragments["shaded"], 16);
+    EXPECT_EQ(fragments["shaded_by"], "probed");
+    EXPECT_EQ(fragments["visible"], 8);
     EXPECT_EQ(fragments["needed"], 16);
     EXPECT_TRUE(fragments["efficiency"].is_null());
     EXPECT_THAT(fragments["efficiency_reason"].get<std::string>(), HasSubstr("f2b"));
@@ -192,10 +194,12 @@ TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsTheIdealTimeOverTheOwn) {
     EXPECT_FALSE(fragments.contains("efficiency_reason"));
     EXPECT_DOUBLE_EQ(report()["runs"][0]["results"][0]["fragments"]["efficiency"].get<double>(), 1);
 
-    runs[0].results[1].fragments = {{}, "why not shaded", {}, "why not needed", {}};
+    runs[0].results[1].fragments = {{{}, "why not shaded", "", {}, "why not visible"}, {}, "why not needed", {}};
     fragments = report()["runs"][0]["results"][1]["fragments"];
-    for (const std::string name : {"shaded", "needed", "efficiency"}) EXPECT_TRUE(fragments[name].is_null()) << name;
+    for (const std::string name : {"shaded", "shaded_by", "visible", "needed", "efficiency"})
+        EXPECT_TRUE(fragments[name].is_null()) << name;
     EXPECT_EQ(fragments["shaded_reason"], "why not shaded");
+    EXPECT_EQ(fragments["visible_reason"], "why not visible");
     EXPECT_EQ(fragments["needed_reason"], "why not needed");
     EXPECT_EQ(fragments["efficiency_reason"], "why not needed");
 }
