@@ -52,6 +52,11 @@ bool in_range(const Param& param, double value) {
     return param.exclusive ? value > param.min && value < param.max : value >= param.min && value <= param.max;
 }
 
+bool is_whole(const json& value) {
+    return value.is_number_integer() ||
+           (value.is_number_float() && std::floor(value.get<double>()) == value.get<double>());
+}
+
 std::string range_text(const Param& param) {
     const bool low = std::isfinite(param.min), high = std::isfinite(param.max);
     if (low && high)
@@ -112,9 +117,7 @@ class ValueReader {
     }
 
     json integer(const json& value) {
-        const bool whole = value.is_number_integer() ||
-                           (value.is_number_float() && std::floor(value.get<double>()) == value.get<double>());
-        if (!whole) return wrong("must be a whole number " + range_text(m_param), value);
+        if (!is_whole(value)) return wrong("must be a whole number " + range_text(m_param), value);
         if (!in_range(m_param, value.get<double>())) return wrong("must be " + range_text(m_param), value);
         return value.get<std::int64_t>();
     }
@@ -153,9 +156,12 @@ class ValueReader {
             return wrong(fmt::format("must be an array of {} numbers", m_param.max_length), value);
         json read_values = json::array();
         for (std::size_t i = 0; i < value.size(); ++i) {
-            if (!value[i].is_number() || !in_range(m_param, value[i].get<double>())) {
+            const bool right = (m_param.whole ? is_whole(value[i]) : value[i].is_number()) &&
+                               in_range(m_param, value[i].get<double>());
+            if (!right) {
                 m_errors.push_back({fmt::format("{}/{}", m_pointer, i),
-                                    fmt::format("must be a number {}, not {}", range_text(m_param), quoted(value[i]))});
+                                    fmt::format("must be a {} {}, not {}", m_param.whole ? "whole number" : "number",
+                                                range_text(m_param), quoted(value[i]))});
                 return m_param.default_value;
             }
             read_values.push_back(value[i].get<double>());
@@ -208,7 +214,7 @@ bool may_be_absent(const Param& param) {
 
 /// A whole number where the field is one.
 json bound(const Param& param, double value) {
-    return param.kind == Param::Kind::integer ? json(static_cast<std::int64_t>(value)) : json(value);
+    return param.kind == Param::Kind::integer || param.whole ? json(static_cast<std::int64_t>(value)) : json(value);
 }
 
 json value_schema(const Param& param) {
@@ -252,7 +258,7 @@ json value_schema(const Param& param) {
     if (std::isfinite(param.min)) range[param.exclusive ? "exclusiveMinimum" : "minimum"] = bound(param, param.min);
     if (std::isfinite(param.max)) range[param.exclusive ? "exclusiveMaximum" : "maximum"] = bound(param, param.max);
     if (param.kind == Param::Kind::numbers) {
-        range["type"] = "number";
+        range["type"] = param.whole ? "integer" : "number";
         schema["items"] = range;
     } else {
         schema.update(range);
@@ -344,6 +350,7 @@ Param Param::asset(std::string name, std::string summary, std::string type, std:
 
 Param Param::required() const {
     Param param = *this;
+    param.suggestion = std::move(param.default_value);
     param.default_value = nullptr;
     return param;
 }
@@ -386,6 +393,8 @@ json to_json(const std::vector<Param>& fields) {
         if (std::isfinite(param.min)) one["min"] = bound(param, param.min);
         if (std::isfinite(param.max)) one["max"] = bound(param, param.max);
         if (param.exclusive) one["exclusive"] = true;
+        if (param.whole) one["whole"] = true;
+        if (!param.suggestion.is_null()) one["suggestion"] = param.suggestion;
         if (param.optional) one["optional"] = true;
         if (!param.choices.empty()) one["choices"] = param.choices;
         if (!param.asset_type.empty()) one["asset_type"] = param.asset_type;

@@ -18,10 +18,12 @@ struct Param {
     std::string summary;
     std::string unit;                        ///< "" where it has none
     nlohmann::json default_value = nullptr;  ///< null: the field must be given, unless `optional`
+    nlohmann::json suggestion = nullptr;     ///< what a form begins with where the field must be given; null for none
     bool optional = false;                   ///< may be absent, then it is null
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool exclusive = false;            ///< min and max themselves are not allowed
+    bool whole = false;                ///< of numbers: each is a whole number
     std::vector<std::string> choices;  ///< of a choice; of an asset: the names that mean something built in
     std::string asset_type;            ///< of an asset: texture, model or volume
     std::size_t min_length = 0;        ///< of text (bytes), numbers and lists
@@ -50,6 +52,7 @@ struct Param {
     static Param asset(std::string name, std::string summary, std::string type, std::string fallback,
                        std::vector<std::string> built_in);
 
+    /// The same field without a default; what was the default is the suggestion.
     Param required() const;
 };
 
@@ -60,7 +63,8 @@ nlohmann::json read_fields(const nlohmann::json& object, const std::string& poin
 
 /// The same description as a JSON schema (draft 7) object.
 nlohmann::json schema_of(const std::vector<Param>& fields);
-/// The same description as an array of {name, kind, summary, unit, default, min, max, choices, fields, optional}.
+/// The same description as an array of {name, kind, summary, unit, default, required, suggestion, min, max, exclusive,
+/// whole, optional, choices, asset_type, fields, min_length, max_length}; what says nothing is left out.
 nlohmann::json to_json(const std::vector<Param>& fields);
 
 /// A field of a spec that refers to a file.

@@ -195,11 +195,6 @@ void check(const json& scene, const std::string& pointer, std::vector<FieldError
     const json &volume = scene.at("volume"), &raw = volume.at("raw");
     if (raw.is_null()) return;
     if (volume.at("data") == "head") errors.push_back({pointer + "/volume/raw", "is of no use to the built-in head"});
-    for (std::size_t axis = 0; raw.at("size").is_array() && axis < 3; ++axis) {
-        const auto side = raw.at("size")[axis].get<double>();
-        if (std::floor(side) != side)
-            errors.push_back({pointer + "/volume/raw/size/" + std::to_string(axis), "must be a whole number"});
-    }
 }
 
 /// Translucent skin, a pink brain, clear flesh and an opaque skull: the materials of the built-in head.
@@ -216,9 +211,12 @@ json usual_transfer() {
 }
 
 std::vector<Param> volume_parameters() {
+    Param size = Param::numbers("size", "voxels along x, y and z; x is the fastest", "", {64, 64, 64}, 1, largest_side)
+                     .required();
+    size.whole = true;
     Param raw = Param::object(
         "raw", "what a file without a header holds; leave it out for NRRD",
-        {Param::numbers("size", "voxels along x, y and z; x is the fastest", "", {1, 1, 1}, 1, largest_side).required(),
+        {std::move(size),
          Param::choice(
              "voxel",
              "little-endian; integers are divided by their greatest value, floats go from 0 for the least to 1 "
