@@ -25,6 +25,13 @@ const json_of = async (page) => {
   return spec;
 };
 
+/** A chart is painted once it has a width, which is a moment after it is on the page. */
+async function assert_lines(charts, count) {
+  const lines = charts.locator("path.line");
+  await lines.nth(count - 1).waitFor({ state: "attached" });
+  assert.equal(await lines.count(), count);
+}
+
 page_test("a sweep is written in the form, run and shown", {}, async (page) => {
   await page.goto(`${tests.url()}/#/`);
   await page.getByRole("tab", { name: "Spec" }).click();
@@ -57,7 +64,7 @@ page_test("a sweep is written in the form, run and shown", {}, async (page) => {
   await speedup.locator(".plot").focus();
   for (const key of ["ArrowRight", "ArrowLeft", "Enter"]) await page.keyboard.press(key);
   assert.equal(await point.inputValue(), "0", "Enter looks at the point");
-  assert.equal(await speedup.locator("path.line").count(), SPEC.methods.length);
+  await assert_lines(speedup, SPEC.methods.length);
 
   await page.getByText("Values as a table").click();
   for (const run of report.runs) {
@@ -104,6 +111,7 @@ page_test("the chart draws the report's values where they belong", { origin: und
 
   const { frontier } = report.runs[0];
   const section = page.getByRole("region", { name: "Speed against error" });
+  await section.locator("path.marker").first().waitFor();
   assert.deepEqual(await section.locator("li").allTextContents(), frontier.sentences);
   const grey = await section.locator("text.name.grey").allTextContents();
   assert.deepEqual(grey.sort(), frontier.dominated.map((entry) => entry.method).sort());
@@ -113,7 +121,7 @@ page_test("the chart draws the report's values where they belong", { origin: und
   await page.context().setOffline(true);
   await page.goto(`file://${file}`);
   await page.getByLabel("count", { exact: true }).selectOption({ label: "count 64" });
-  assert.equal(await page.locator("figure.chart path.line").count(), 3 * SPEC.methods.length);
+  await assert_lines(page.locator("figure.chart"), 3 * SPEC.methods.length);
 });
 
 page_test("what is wrong in a sweep is said at its field", { expected_statuses: [422] }, async (page) => {
