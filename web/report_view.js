@@ -4,6 +4,7 @@ import { el, set_children } from "./dom.js";
 import { fixed, is_number, short_value, when, words } from "./format.js";
 import { frontier_section } from "./frontier_view.js";
 import { ImageViewer } from "./image_viewer.js";
+import { note_list } from "./notes.js";
 import { PixelView } from "./pixel_view.js";
 import { difference_table, fragment_table, timing_table } from "./result_tables.js";
 import { suite_section } from "./suite_view.js";
@@ -202,25 +203,18 @@ function checks_list(report) {
   );
 }
 
-/** What of the input was not read, or read otherwise than it was meant. */
 function notes_list(notes = []) {
   if (notes.length === 0) return null;
   return el(
     "section",
     { class: "notes", "aria-label": "Notes" },
-    el("h2", {}, notes.length === 1 ? "Note" : "Notes"),
     el(
-      "ul",
+      "h2",
       {},
-      notes.map((note) =>
-        el(
-          "li",
-          { "data-code": note.code },
-          note.where ? el("span", { class: "muted" }, `${note.where}: `) : null,
-          note.text,
-        ),
-      ),
+      notes.length === 1 ? "Note" : `${notes.length} notes`,
+      el("span", { class: "muted" }, "what of the input was not read, or read otherwise"),
     ),
+    note_list(notes),
   );
 }
 
