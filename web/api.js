@@ -56,6 +56,10 @@ export async function get_scenes() {
 export async function get_metrics() {
   return (await call("/metrics")).body;
 }
+/** The fields of a spec that are the same for every scene and method. */
+export async function get_spec_fields() {
+  return (await call("/specs/fields")).body;
+}
 /** Ready specs to start from: [{id, spec}]. */
 export async function get_examples() {
   return (await call("/specs/examples")).body;
@@ -96,9 +100,12 @@ export async function delete_report(id) {
   await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" });
 }
 
+/** How many uploaded files are listed: as many as the service gives at once. */
+export const MOST_ASSETS = 1000;
+
 /** {assets, newest first; accepts: [{media_type, type, suffixes}]; max_bytes}. */
 export async function get_assets() {
-  return (await call("/assets")).body;
+  return (await call(`/assets?limit=${MOST_ASSETS}`)).body;
 }
 
 /** Uploads a file for specs to refer to; `on_progress` gets fractions up to 1. Gives what the service says of it. */

@@ -1,7 +1,8 @@
 // The control of a field that refers to a file: names that are built in, files that were uploaded, and a button to
 // upload another.
-import { get_assets, upload_asset } from "./api.js";
-import { el, select, unique_id } from "./dom.js";
+import { get_assets, MOST_ASSETS, upload_asset } from "./api.js";
+import { el, select, set_children, unique_id } from "./dom.js";
+import { note_list } from "./notes.js";
 
 const SHOWN_DIGITS = 12;
 
@@ -34,13 +35,14 @@ class AssetControl {
   #file = el("input", { type: "file", hidden: true, onchange: () => this.#upload() });
   #button = el("button", { type: "button", class: "small", onclick: () => this.#file.click() }, "Upload…");
   #status = el("p", { class: "upload-status", role: "status" });
+  #notes = el("div", { class: "asset-notes", role: "status" });
 
   constructor(param, current, on_change) {
     this.#param = param;
     this.#current = current ?? "";
     this.#on_change = on_change;
     this.#button.setAttribute("aria-label", `Upload a ${param.asset_type}`);
-    this.element = el("div", { class: "asset" }, this.#select, this.#button, this.#file, this.#status);
+    this.element = el("div", { class: "asset" }, this.#select, this.#button, this.#file, this.#status, this.#notes);
     this.#draw();
     this.#load();
   }
@@ -57,6 +59,7 @@ class AssetControl {
       this.#max_bytes = max_bytes;
       this.#file.accept = this.#kinds.flatMap(({ suffixes, media_type }) => [...suffixes, media_type]).join(",");
       this.#draw();
+      if (assets.length === MOST_ASSETS) this.#say(`Only the newest ${MOST_ASSETS} uploaded files are listed.`);
     } catch (error) {
       this.#say(`The uploaded files cannot be listed: ${error.message}`, true);
     }
@@ -73,10 +76,22 @@ class AssetControl {
     ].filter(Boolean);
     this.#select.replaceChildren(...select({}, choices).childNodes);
     this.#select.value = this.#current; // a moved option does not keep what it was
+    this.#draw_notes();
+  }
+
+  /** What of the chosen file is not read, or read otherwise. */
+  #draw_notes() {
+    const { notes = [], media_type } = this.#uploaded.find(({ sha256 }) => sha256 === this.#current) ?? {};
+    set_children(
+      this.#notes,
+      media_type === RAW ? el("p", { class: "hint" }, "It has no header: “raw” must say what it holds.") : null,
+      note_list(notes),
+    );
   }
 
   #choose(value) {
     this.#current = value;
+    this.#draw_notes();
     this.#on_change(value);
   }
 
@@ -95,7 +110,7 @@ class AssetControl {
         this.#say(part < 1 ? `Uploading ${file.name}: ${Math.round(100 * part)} %` : `Reading ${file.name}`),
       );
       this.#uploaded = [asset, ...this.#uploaded.filter(({ sha256 }) => sha256 !== asset.sha256)];
-      this.#say((asset.notes ?? []).map(({ where, text }) => (where ? `${where}: ${text}` : text)).join(" "));
+      this.#say("");
       // Another scene may have been chosen meanwhile.
       if (this.element.isConnected) this.#choose(asset.sha256);
       this.#draw();

@@ -1,11 +1,11 @@
 // A new comparison at #/: a form and the same spec as JSON, checked by the service while it is written.
-import { get_examples, get_methods, get_scenes, get_suites, submit, validate } from "./api.js";
+import { get_examples, get_methods, get_scenes, get_spec_fields, get_suites, submit, validate } from "./api.js";
 import { el, set_children, unique_id } from "./dom.js";
 import { clear_errors, focus_first_error, show_errors } from "./field_errors.js";
 import { json_range } from "./json_position.js";
 import { presets_of } from "./presets.js";
 import { SpecForm } from "./spec_form.js";
-import { keep_draft, load_draft, SpecModel } from "./spec_model.js";
+import { first_model, keep_draft } from "./spec_model.js";
 import { suite_chooser } from "./suite_chooser.js";
 
 const TYPING_PAUSE_MS = 300;
@@ -28,11 +28,12 @@ class CompareView {
   #loose_errors = el("ul", { class: "json-errors" });
   #run = el("button", { type: "button", class: "primary", onclick: () => this.#submit() }, "Run comparison");
 
-  constructor({ methods, scenes, suites, examples }, signal) {
+  constructor({ fields, methods, scenes, suites, examples }, signal) {
     const presets = presets_of(examples);
     this.#signal = signal;
-    this.#model = new SpecModel(load_draft() ?? presets[0]?.spec ?? { scene: { type: scenes[0]?.id }, methods: [] });
-    this.#form = new SpecForm(this.#model, { methods, scenes });
+    const ready = [...presets, ...suites].map(({ spec }) => spec);
+    this.#model = first_model(ready, { scene: { type: scenes[0]?.id }, methods: [] });
+    this.#form = new SpecForm(this.#model, { fields, methods, scenes });
     this.#model.addEventListener("edit", () => {
       this.#write_text();
       this.#changed();
@@ -57,7 +58,7 @@ class CompareView {
   }
 
   #start_from(spec) {
-    this.#model.replace(spec);
+    this.#model.start_from(spec);
     this.#write_text();
   }
 
@@ -167,7 +168,7 @@ class CompareView {
   }
 
   #changed() {
-    keep_draft(this.#model.spec);
+    keep_draft(this.#model.spec, this.#model.origin);
     clearTimeout(this.#typing);
     this.#typing = setTimeout(() => this.#validate(), TYPING_PAUSE_MS);
   }
@@ -258,13 +259,15 @@ export async function show_compare(main, signal) {
   try {
     // Without what one can start from there is the form all the same.
     const none = () => [];
-    const [methods, scenes, suites, examples] = await Promise.all([
+    const [fields, methods, scenes, suites, examples] = await Promise.all([
+      get_spec_fields(),
       get_methods(),
       get_scenes(),
       get_suites().catch(none),
       get_examples().catch(none),
     ]);
-    if (!signal.aborted) set_children(main, new CompareView({ methods, scenes, suites, examples }, signal).element);
+    if (!signal.aborted)
+      set_children(main, new CompareView({ fields, methods, scenes, suites, examples }, signal).element);
   } catch (error) {
     if (!signal.aborted)
       set_children(

@@ -1,5 +1,4 @@
-// Form fields made from the descriptions of parameters: {name, kind, summary, unit, default, min, max, choices, fields,
-// optional}.
+// Form fields made from the descriptions of parameters, as the service gives them.
 import { asset_control } from "./asset_field.js";
 import { el, select, set_children, unique_id } from "./dom.js";
 import { words } from "./format.js";
@@ -14,15 +13,45 @@ const LETTERS = {
   eye: ["x", "y", "z"],
   target: ["x", "y", "z"],
   up: ["x", "y", "z"],
+  size: ["x", "y", "z"],
+  spacing: ["x", "y", "z"],
 };
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
-function range_text(param) {
+const is_whole = (param) => param.kind === "integer" || param.whole === true;
+
+const tiniest = Number.MIN_VALUE;
+/** The nearest number to `bound` on the side of `direction`, 1 or -1. */
+function next_number(bound, direction) {
+  if (bound === 0) return direction * tiniest;
+  const bits = new DataView(new ArrayBuffer(8));
+  bits.setFloat64(0, bound);
+  bits.setBigInt64(0, bits.getBigInt64(0) + BigInt(bound > 0 === direction > 0 ? 1 : -1));
+  return bits.getFloat64(0);
+}
+
+/** min, max and step of an input; it knows no bounds that are excluded, so there it gets the numbers next to them. */
+export function input_range(param) {
+  const bound = (value, direction) => {
+    if (typeof value !== "number") return null;
+    if (!param.exclusive) return value;
+    return is_whole(param) ? value + direction : next_number(value, direction);
+  };
+  return { min: bound(param.min, 1), max: bound(param.max, -1), step: is_whole(param) ? 1 : "any" };
+}
+
+/** What an input of numbers holds: undefined where it is empty, null where it is no number, which the service refuses. */
+function read_number(input) {
+  if (input.validity.badInput) return null;
+  return input.value === "" ? undefined : Number(input.value);
+}
+
+export function range_text(param) {
   const has_min = typeof param.min === "number";
   const has_max = typeof param.max === "number";
-  const bound = param.exclusive ? ", excluded" : "";
-  if (has_min && has_max) return `${param.min} to ${param.max}${bound}`;
+  if (has_min && has_max)
+    return param.exclusive ? `over ${param.min}, under ${param.max}` : `${param.min} to ${param.max}`;
   if (has_min) return `${param.exclusive ? "over" : "from"} ${param.min}`;
   return has_max ? `${param.exclusive ? "under" : "up to"} ${param.max}` : "";
 }
@@ -61,13 +90,12 @@ function number_input(param, value, on_change, label = null, id = null) {
     type: "number",
     id,
     "aria-label": label,
-    step: param.kind === "integer" ? 1 : "any",
-    min: param.min,
-    max: param.max,
-    inputmode: param.kind === "integer" ? "numeric" : "decimal",
+    ...input_range(param),
+    inputmode: is_whole(param) ? "numeric" : "decimal",
     value: value ?? "",
+    placeholder: typeof param.default === "number" ? String(param.default) : null,
     required: param.required,
-    oninput: () => on_change(input.value === "" ? undefined : Number(input.value)),
+    oninput: () => on_change(read_number(input)),
   });
   return input;
 }
@@ -156,16 +184,18 @@ function numbers_field(param, path, model) {
     const stored = model.get(path) ?? param.default;
     return Array.isArray(stored) ? stored : [];
   };
-  const letters = LETTERS[param.name] ?? value().map((_, index) => `number ${index + 1}`);
+  const count = param.max_length ?? value().length;
+  const named = LETTERS[param.name];
+  const letters = named?.length === count ? named : Array.from({ length: count }, (_, index) => `number ${index + 1}`);
   const change = (index, part) => {
-    const next = [...value()];
-    next[index] = part ?? null;
-    store(model, path, param, next);
+    const next = letters.map((_, at) => (at === index ? part : value()[at]) ?? null);
+    const emptied = param.optional && next.every((one) => one === null);
+    store(model, path, param, emptied ? undefined : next);
     if (picker) picker.value = to_hex(next);
   };
   const inputs = letters.map((letter, index) =>
     number_input(
-      { ...param, kind: "number" },
+      { ...param, kind: "number", default: null },
       value()[index],
       (part) => change(index, part),
       `${words(param.name)} ${letter}`,
@@ -210,7 +240,7 @@ function optional_object_field(param, path, model) {
     id,
     checked: (model.get(path) ?? null) !== null,
     onchange: () => {
-      model.set(path, box.checked ? {} : undefined);
+      model.set(path, box.checked ? new_entry(param.fields ?? []) : undefined);
       draw();
     },
   });
@@ -222,16 +252,17 @@ function optional_object_field(param, path, model) {
   return field_frame(param, path, el("div", {}, line, fields), { group: true });
 }
 
-/** A value for a new entry of a list: the default, or the middle of the range where it must be given. */
-function first_value(param) {
-  if (param.default !== null && param.default !== undefined) return param.default;
-  if (param.kind === "number" || param.kind === "integer") return ((param.min ?? 0) + (param.max ?? 1)) / 2;
-  return param.kind === "text" ? "" : null;
+/** A value for a field that must be given, undefined where only a person can know it, as a file. */
+export function first_value(param) {
+  if (param.kind === "list") return [new_entry(param.fields)];
+  if (param.kind === "object") return new_entry(param.fields);
+  return param.suggestion ?? param.default ?? undefined;
 }
 
-/** A new entry of a list: only the fields that must be given. */
+/** A new object: only the fields that must be given. */
 export function new_entry(fields) {
-  return Object.fromEntries(fields.filter((field) => field.required).map((field) => [field.name, first_value(field)]));
+  const entries = fields.filter((field) => field.required).map((field) => [field.name, first_value(field)]);
+  return structuredClone(Object.fromEntries(entries.filter(([, value]) => value !== undefined)));
 }
 
 /** A list that is not in the spec stands for the usual entries; they come into the spec to be changed. */
@@ -259,6 +290,7 @@ function list_field(param, path, model) {
   });
   const draw = () => {
     const what = words(param.name).toLowerCase();
+    more.disabled = entries().length >= (param.max_length ?? Infinity);
     more.textContent = is_usual() ? `Change the ${param.default.length} usual entries of ${what}` : `Add to ${what}`;
     set_children(
       rows,
@@ -274,7 +306,12 @@ function list_field(param, path, model) {
           el(
             "div",
             { class: "row-buttons" },
-            button("Copy", `Copy ${name}`, () => put(entries().toSpliced(index, 0, structuredClone(entries()[index])))),
+            button(
+              "Copy",
+              `Copy ${name}`,
+              () => put(entries().toSpliced(index, 0, structuredClone(entries()[index]))),
+              more.disabled,
+            ),
             button(
               "✕",
               `Remove ${name}`,

@@ -1,22 +1,26 @@
 // The form of a spec: scene, image, methods, reference, timing and checks, made from the service's self-description.
 import { el, select, set_children, unique_id } from "./dom.js";
 import { field_frame, fields_of, new_entry } from "./param_form.js";
+import { rounds_warning } from "./rounds.js";
 import { pointer_of, same_id } from "./spec_model.js";
-import { CHECK_BOUNDS, CHECK_METRICS, IMAGE_FIELDS, TIMING_FIELDS } from "./spec_fields.js";
 import { suite_note } from "./suite_chooser.js";
 import { SweepForm } from "./sweep_form.js";
 
 export class SpecForm {
   #model;
+  #fields;
   #methods;
   #scenes;
   #list = el("ol", { class: "method-list" });
   #baseline_place = el("div", { class: "stacked" });
   #checks = el("ol", { class: "check-list" });
   #sweep;
+  #left_scenes = new Map(); // by type, to come back to
+  #rounds_note = el("p", { class: "warning-text", role: "status" });
 
-  constructor(model, { methods, scenes }) {
+  constructor(model, { fields, methods, scenes }) {
     this.#model = model;
+    this.#fields = fields;
     this.#methods = methods;
     this.#scenes = scenes;
     this.element = el("form", {
@@ -25,12 +29,24 @@ export class SpecForm {
       "aria-label": "Comparison",
       onsubmit: (event) => event.preventDefault(),
     });
+    model.addEventListener("edit", () => this.#show_rounds());
+    model.addEventListener("leave", () => {
+      this.#draw_title();
+      this.#draw_checks();
+    });
     this.draw();
+  }
+
+  /** The description of a field of the spec. */
+  #field(name) {
+    return this.#fields.find((field) => field.name === name);
   }
 
   /** Everything anew, after the spec was exchanged. */
   draw() {
+    this.#left_scenes.clear();
     this.#sweep = new SweepForm(this.#model, {
+      fields: this.#fields,
       methods: this.#methods,
       scenes: this.#scenes,
       labels: () => this.#labels,
@@ -85,10 +101,41 @@ export class SpecForm {
   }
 
   #title_section() {
-    const title = { name: "title", kind: "text", default: "", summary: "", placeholder: "What is compared" };
+    const title = { ...this.#field("title"), placeholder: "What is compared" };
     const fields = fields_of([title], [], this.#model);
     fields.append(this.#tags_field());
-    return el("section", { class: "card title-card", "aria-label": "Title and tags" }, fields, suite_note(this.#model));
+    return el(
+      "section",
+      { class: "card title-card", "aria-label": "Title and tags" },
+      fields,
+      this.#left_note(),
+      suite_note(this.#model),
+    );
+  }
+
+  #draw_title() {
+    this.element.querySelector(".title-card").replaceWith(this.#title_section());
+  }
+
+  /** What went with the ready spec that this one was, and how to have it back. */
+  #left_note() {
+    const { left } = this.#model;
+    if (!left) return null;
+    const checks =
+      left.checks.length === 1 ? "the check" : left.checks.length > 1 ? `${left.checks.length} checks` : "";
+    const what = [left.title ? `the title “${left.title}”` : "", checks].filter(Boolean).join(" and ");
+    const put_back = () => {
+      this.#model.put_back();
+      this.#draw_title();
+      this.#draw_checks();
+      this.element.querySelector(".title-card input").focus();
+    };
+    return el(
+      "div",
+      { class: "left-note", role: "status" },
+      `This is another comparison now, so ${what} of the ready one went. `,
+      el("button", { type: "button", class: "link", onclick: put_back }, "Put back"),
+    );
   }
 
   #tags_field() {
@@ -152,17 +199,17 @@ export class SpecForm {
     return el("div", { class: "scene-pictures", role: "group", "aria-label": "Scenes" }, ...this.#scenes.map(button));
   }
 
-  /** Parameters that the new scene has as well are kept. */
+  /** Another scene has parameters, shading and texture of its own; what the one before had comes back with it. */
   #choose_scene(type) {
     const info = this.#scenes.find((scene) => scene.id === type);
-    const old = this.#model.get(["scene"]) ?? {};
-    const scene = { type };
-    for (const param of info.parameters) {
-      if (param.name in old) scene[param.name] = old[param.name];
-      else if (param.required)
-        scene[param.name] = param.kind === "list" ? [new_entry(param.fields)] : new_entry([param])[param.name];
+    const old = this.#model.get(["scene"]);
+    if (!info || same_id(old?.type, type)) return;
+    if (typeof old?.type === "string") this.#left_scenes.set(old.type.toLowerCase(), old);
+    this.#model.set(["scene"], this.#left_scenes.get(type) ?? { type, ...new_entry(info.parameters) });
+    if (this.#model.get(["suite"]) !== undefined) {
+      this.#model.set(["suite"], undefined); // its figures are of the scene before
+      this.#draw_title();
     }
-    this.#model.set(["scene"], scene);
     const section = this.element.querySelector("[data-pointer='/scene']");
     section.replaceWith(this.#scene_section());
     this.#sweep.draw();
@@ -170,10 +217,21 @@ export class SpecForm {
   }
 
   #image_section() {
-    return this.#section("Image", "/image", fields_of(IMAGE_FIELDS, ["image"], this.#model));
+    return this.#section("Image", "/image", fields_of(this.#field("image").fields, ["image"], this.#model));
   }
+
   #timing_section() {
-    return this.#section("Timing", "/timing", fields_of(TIMING_FIELDS, ["timing"], this.#model));
+    const fields = fields_of(this.#field("timing").fields, ["timing"], this.#model);
+    fields.querySelector("[data-pointer='/timing/rounds'] > .error-text").before(this.#rounds_note);
+    this.#show_rounds();
+    return this.#section("Timing", "/timing", fields);
+  }
+
+  #show_rounds() {
+    const { fields } = this.#field("timing");
+    const rounds = this.#model.get(["timing", "rounds"]) ?? fields.find(({ name }) => name === "rounds").default;
+    const text = rounds_warning(rounds, this.#method_specs.length);
+    if (this.#rounds_note.textContent !== text) this.#rounds_note.textContent = text;
   }
 
   #methods_section() {
@@ -361,7 +419,7 @@ export class SpecForm {
         type: "button",
         class: "small",
         onclick: () => {
-          const check = { metric: CHECK_METRICS[0], method: this.#labels[0] ?? "", max: 0.05 };
+          const check = { ...new_entry(this.#field("checks").fields), method: this.#labels[0] ?? "", max: 0.05 };
           this.#model.set(["checks"], [...(this.#model.get(["checks"]) ?? []), check]);
           this.#draw_checks();
           this.#checks.lastElementChild.querySelector("select").focus();
@@ -388,6 +446,10 @@ export class SpecForm {
 
   #check_row(check, index) {
     const path = ["checks", index];
+    const described = this.#field("checks").fields;
+    const { choices: metrics } = described.find(({ name }) => name === "metric");
+    const with_points = (this.#model.get(["sweep"]) ?? []).length > 0 || check.at !== undefined;
+    const bounds = described.filter(({ name }) => ["min", "max"].includes(name) || (name === "at" && with_points));
     const pick = (name, choices) => {
       const id = unique_id("field");
       const current = check[name] ?? "";
@@ -399,8 +461,8 @@ export class SpecForm {
       );
       return field_frame({ name, kind: "choice", summary: "" }, [...path, name], input, { for_id: id });
     };
-    const fields = fields_of(CHECK_BOUNDS, path, this.#model);
-    fields.prepend(pick("metric", CHECK_METRICS), pick("method", this.#labels));
+    const fields = fields_of(bounds, path, this.#model);
+    fields.prepend(pick("metric", metrics), pick("method", this.#labels));
     return el(
       "li",
       { class: "check-row", "data-pointer": pointer_of(path) },

@@ -2,6 +2,10 @@
 // are left out, so that the text stays as short as what a person would write.
 
 const DRAFT_KEY = "sheer.draft";
+const ORIGIN_KEY = "sheer.draft.origin";
+
+/** The parts of a spec that a title and the limits of checks are about. */
+const SUBJECT = ["image", "scene", "methods", "reference", "sweep"];
 
 /** RFC 6901 pointer of a path of keys and indices. */
 export function pointer_of(path) {
@@ -18,22 +22,59 @@ function is_method_place(path) {
 
 const is_object = (value) => typeof value === "object" && value !== null;
 
-/** Events: "edit" after a change by the form, "replace" after the whole spec was exchanged. */
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+/** Whether two checks ask for the same, written out or not. */
+function same_check(a, b) {
+  return ["metric", "method", "min", "max"].every((name) => (a?.[name] ?? null) === (b?.[name] ?? null));
+}
+
+/**
+ * Events: "edit" after a change by the form, "replace" after the whole spec was exchanged, "leave" after a change that
+ * made of a ready spec another one: title and checks that came with it are then in `left`, no longer in the spec.
+ */
 export class SpecModel extends EventTarget {
   #spec;
+  #origin; // the ready spec that this one began as; null once it is another one
+  #left = null;
 
-  constructor(spec) {
+  constructor(spec, origin = null) {
     super();
     this.#spec = structuredClone(spec);
+    this.#origin = structuredClone(origin);
   }
 
   get spec() {
     return this.#spec;
   }
 
+  get origin() {
+    return this.#origin;
+  }
+
+  /** {title, checks} that went with the ready spec, or null. */
+  get left() {
+    return this.#left;
+  }
+
   replace(spec) {
     this.#spec = structuredClone(spec);
+    this.#left = null;
     this.dispatchEvent(new Event("replace"));
+  }
+
+  /** Begins with a ready spec. */
+  start_from(spec) {
+    this.#origin = structuredClone(spec);
+    this.replace(spec);
+  }
+
+  /** Takes back title and checks that went; a title that was given since stays. */
+  put_back() {
+    const { title, checks } = this.#left;
+    this.#left = null;
+    if (title && !this.get(["title"])) this.set(["title"], title);
+    if (checks.length > 0) this.set(["checks"], [...checks, ...(this.get(["checks"]) ?? [])]);
   }
 
   /** The value at a path of keys and indices, undefined where there is none. */
@@ -49,8 +90,27 @@ export class SpecModel extends EventTarget {
 
   /** Sets a value, or with undefined takes it out. */
   set(path, value) {
+    const before = this.get(path.slice(0, 1));
     this.#spec = this.#changed(is_object(this.#spec) ? this.#spec : {}, [], path, value);
+    const is_another = this.#origin && SUBJECT.includes(path[0]) && !same(before, this.get(path.slice(0, 1)));
+    if (is_another) this.#leave_origin();
     this.dispatchEvent(new Event("edit"));
+    if (is_another && this.#left) this.dispatchEvent(new Event("leave"));
+  }
+
+  #leave_origin() {
+    const { title, checks = [] } = this.#spec;
+    const origin = this.#origin;
+    this.#origin = null;
+    const is_of_origin = (check) => (origin.checks ?? []).some((one) => same_check(one, check));
+    const gone = { title: title === origin.title ? title : undefined, checks: [] };
+    if (Array.isArray(checks)) gone.checks = checks.filter(is_of_origin);
+    if (!gone.title && gone.checks.length === 0) return;
+    this.#left = gone;
+    if (gone.title) delete this.#spec.title;
+    if (gone.checks.length === 0) return;
+    this.#spec.checks = checks.filter((check) => !is_of_origin(check));
+    if (this.#spec.checks.length === 0) delete this.#spec.checks;
   }
 
   /** A copy of `owner`, which lies at `done`, in which the rest of `path` holds `value`. */
@@ -72,19 +132,29 @@ export class SpecModel extends EventTarget {
   }
 }
 
-/** Keeps a spec for the next visit of the form in this browser tab. */
-export function keep_draft(spec) {
+/** Keeps a spec, and the ready one that it began as, for the next visit of the form in this browser tab. */
+export function keep_draft(spec, origin = null) {
   try {
     sessionStorage.setItem(DRAFT_KEY, JSON.stringify(spec));
+    sessionStorage.setItem(ORIGIN_KEY, JSON.stringify(origin));
   } catch {
     // Without storage the draft lives as long as the form.
   }
 }
 
-export function load_draft() {
+function load(key) {
   try {
-    return JSON.parse(sessionStorage.getItem(DRAFT_KEY));
+    return JSON.parse(sessionStorage.getItem(key));
   } catch {
     return null;
   }
+}
+
+/** The model of the draft, else of the first of the `ready` specs. */
+export function first_model(ready, empty) {
+  const draft = load(DRAFT_KEY);
+  if (!draft) return new SpecModel(ready[0] ?? empty, ready[0] ?? null);
+  // The spec of a report may be a ready one.
+  const origin = load(ORIGIN_KEY) ?? ready.find(({ title }) => title && title === draft.title) ?? null;
+  return new SpecModel(draft, origin);
 }

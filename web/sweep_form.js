@@ -1,11 +1,8 @@
 // The form's part for sweeps: which parameters are varied in one job, and over which values.
 import { el, select, set_children, unique_id } from "./dom.js";
-import { field_frame } from "./param_form.js";
-import { IMAGE_FIELDS } from "./spec_fields.js";
+import { field_frame, first_value, range_text } from "./param_form.js";
 import { pointer_of, same_id } from "./spec_model.js";
 import { field_name } from "./sweep.js";
-
-const MOST_AXES = 4;
 
 /** Values from a text with commas between them: JSON where it is such, else words. */
 export function read_values(text) {
@@ -24,9 +21,12 @@ export function read_values(text) {
   }
 }
 
+/** The text that `read_values` reads as these values. */
 export function values_text(values) {
   if (!Array.isArray(values)) return "";
-  return values.map((value) => (typeof value === "string" ? value : JSON.stringify(value))).join(", ");
+  const is_word = (value) =>
+    typeof value === "string" && JSON.stringify(read_values(value)) === JSON.stringify([value]);
+  return values.map((value) => (is_word(value) ? value : JSON.stringify(value))).join(", ");
 }
 
 /** The parameters that have one value, those within objects among them, but not within objects that are left out. */
@@ -44,20 +44,30 @@ function first_values(field, model) {
   if (!field) return [];
   const { param, path } = field;
   if (param.kind === "choice") return [...param.choices];
-  const value = model.get(path) ?? param.default ?? param.min ?? null;
+  const value = model.get(path) ?? first_value(param) ?? null;
   return value === null ? [] : [value];
+}
+
+function values_hint(param) {
+  if (!param) return "separated by commas";
+  const allowed = param.choices ? param.choices.join(", ") : range_text(param);
+  return ["separated by commas", param.kind === "integer" ? "whole numbers" : "", allowed].filter(Boolean).join("; ");
 }
 
 export class SweepForm {
   #model;
+  #fields_of_image;
+  #most_axes;
   #methods;
   #scenes;
   #labels;
   #rows = el("ol", { class: "sweep-list" });
 
   /** `labels()` gives the labels of the spec's methods. */
-  constructor(model, { methods, scenes, labels }) {
+  constructor(model, { fields, methods, scenes, labels }) {
     this.#model = model;
+    this.#fields_of_image = fields.find(({ name }) => name === "image").fields;
+    this.#most_axes = fields.find(({ name }) => name === "sweep").max_length;
     this.#methods = methods;
     this.#scenes = scenes;
     this.#labels = labels;
@@ -91,7 +101,7 @@ export class SweepForm {
     };
     return [
       { label: "Scene", fields: leaves(scene?.parameters ?? [], ["scene"], this.#model) },
-      { label: "Image", fields: leaves(IMAGE_FIELDS, ["image"], this.#model) },
+      { label: "Image", fields: leaves(this.#fields_of_image, ["image"], this.#model) },
       ...this.#labels().map((label, index) => ({
         label,
         fields: leaves(parameters(index), ["methods", index], this.#model),
@@ -120,7 +130,7 @@ export class SweepForm {
       this.#rows,
       this.#axes.map((axis, index) => this.#row(axis ?? {}, index)),
     );
-    this.element.querySelector(".add-row").hidden = this.#axes.length >= MOST_AXES;
+    this.element.querySelector(".add-row").hidden = this.#axes.length >= this.#most_axes;
   }
 
   #row(axis, index) {
@@ -190,7 +200,7 @@ export class SweepForm {
       field_frame({ name: "parameter", kind: "choice", summary: "" }, [...path, "pointer"], pointer, {
         for_id: pointer_id,
       }),
-      field_frame({ name: "values", kind: "text", summary: "separated by commas" }, [...path, "values"], values, {
+      field_frame({ name: "values", kind: "text", summary: values_hint(known?.param) }, [...path, "values"], values, {
         for_id: values_id,
       }),
     );
