@@ -35,7 +35,7 @@ class AssetControl {
   #file = el("input", { type: "file", hidden: true, onchange: () => this.#upload() });
   #button = el("button", { type: "button", class: "small", onclick: () => this.#file.click() }, "Upload…");
   #status = el("p", { class: "upload-status", role: "status" });
-  #notes = el("div", { class: "asset-notes", role: "status" });
+  #notes = el("div", { class: "asset-notes", "aria-live": "polite" });
 
   constructor(param, current, on_change) {
     this.#param = param;
