@@ -21,6 +21,7 @@ function media_type_of(file, kinds) {
     kinds.find(({ media_type }) => media_type === file.type) ??
     kinds.find(({ media_type }) => media_type === RAW);
   if (kind) return kind.media_type;
+  if (kinds.length === 0) throw new Error("The service has not said which files it takes; load the page again.");
   throw new Error(`The name must end with ${kinds.flatMap(({ suffixes }) => suffixes).join(", ")}.`);
 }
 
@@ -31,6 +32,7 @@ class AssetControl {
   #uploaded = [];
   #kinds = [];
   #max_bytes = Infinity;
+  #loaded;
   #select = el("select", { id: unique_id("field"), onchange: () => this.#choose(this.#select.value) });
   #file = el("input", { type: "file", hidden: true, onchange: () => this.#upload() });
   #button = el("button", { type: "button", class: "small", onclick: () => this.#file.click() }, "Upload…");
@@ -44,7 +46,7 @@ class AssetControl {
     this.#button.setAttribute("aria-label", `Upload a ${param.asset_type}`);
     this.element = el("div", { class: "asset" }, this.#select, this.#button, this.#file, this.#status, this.#notes);
     this.#draw();
-    this.#load();
+    this.#loaded = this.#load();
   }
 
   get id() {
@@ -105,6 +107,7 @@ class AssetControl {
     if (!file) return;
     this.#button.disabled = true;
     try {
+      await this.#loaded; // what is accepted is known then
       if (file.size > this.#max_bytes) throw new Error(`The file is over the limit of ${this.#max_bytes} bytes.`);
       const asset = await upload_asset(file, media_type_of(file, this.#kinds), (part) =>
         this.#say(part < 1 ? `Uploading ${file.name}: ${Math.round(100 * part)} %` : `Reading ${file.name}`),
