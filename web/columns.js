@@ -1,5 +1,5 @@
 // What the result tables show: one entry a column. Captions come from the metrics' own descriptions where there are any.
-import { is_number } from "./format.js";
+import { column_decimals, fixed, integer, is_number } from "./format.js";
 
 const lower = { better: (value) => value };
 const nearer_zero = { better: (value) => Math.abs(value) };
@@ -9,12 +9,15 @@ export function value_at(object, path) {
   return path.split(".").reduce((part, key) => (part === null || part === undefined ? undefined : part[key]), object);
 }
 
-/** Of the timing table: path below a result, heading, unit, explanation; `better` gives a value to be made small. */
+/**
+ * Of the timing table: path below a result, heading, unit, explanation. No time is best by its number alone: `timed`
+ * columns mark the methods that fastest_labels() names.
+ */
 export const TIMING_COLUMNS = [
-  { path: "timing.median", head: "Median", unit: "ms", title: "Median of the timed frames", ...lower },
+  { path: "timing.median", head: "Median", unit: "ms", title: "Median of the timed frames", timed: true },
   { path: "timing.mad", head: "MAD", unit: "ms", title: "Median absolute deviation from the median" },
-  { path: "timing.min", head: "Min", unit: "ms", title: "Fastest frame", ...lower },
-  { path: "timing.p95", head: "p95", unit: "ms", title: "95th percentile of the frames", ...lower },
+  { path: "timing.min", head: "Min", unit: "ms", title: "Shortest frame" },
+  { path: "timing.p95", head: "p95", unit: "ms", title: "95th percentile of the frames" },
   {
     path: "timing.initialization",
     head: "Init.",
@@ -49,7 +52,8 @@ export const FRAGMENT_COLUMNS = [
     path: "fragments.visible",
     head: "Visible",
     whole: true,
-    title: "Of the shaded fragments those that depth and stencil tests let through: what is shaded at least, on any device",
+    title:
+      "Of the shaded fragments those that depth and stencil tests let through: what is shaded at least, on any device",
   },
   {
     path: "fragments.needed",
@@ -75,11 +79,26 @@ export const SPEEDUP_COLUMN = {
   path: "speedup.value",
   head: "Speed-up",
   unit: "×",
-  better: (value) => -value,
-  title: "Baseline's time over this method's time, with the 95 % confidence interval",
+  timed: true,
+  title:
+    "Median of the baseline's times over this method's, round by round, with its 95 % interval; not the ratio of the medians",
 };
 
-/** Of the table of differences, in the order they are shown. */
+/** What sorting from a moved camera takes, and the speed-up where each frame is preceded by it. */
+export const SORT_COLUMN = {
+  path: "timing.sort.median",
+  head: "Sort",
+  unit: "ms",
+  title: "Making the order anew, which the timed frames leave out: keys, sort and upload of what the scene draws",
+};
+export const SORTED_SPEEDUP_COLUMN = {
+  path: "speedup_with_sort.value",
+  head: "With sort",
+  unit: "×",
+  title: "Speed-up where a method that sorts does so in each frame, the baseline too",
+};
+
+/** Of the table of differences, in the order they are shown; `better` gives a value to be made small. */
 export const DIFFERENCE_COLUMNS = [
   {
     path: "metrics.signed.mean_abs",
@@ -190,6 +209,7 @@ export function column_title(column, metrics) {
 /** Why a value is missing: the report says so beside the value, or it follows from the status. */
 export function missing_reason(result, column) {
   if (result.status !== "ok") return `${result.status}: ${result.reason ?? "no reason given"}`;
+  if (column.path.startsWith("speedup") && result.speedup_reason) return result.speedup_reason;
   const parts = column.path.split(".");
   for (let length = parts.length; length > 0; --length) {
     const owner = length > 1 ? value_at(result, parts.slice(0, length - 1).join(".")) : result;
@@ -206,22 +226,52 @@ export function is_perfect(result) {
   return result.metrics?.differing_pixels === 0 || result.metrics?.rmse === 0;
 }
 
+/** Decimals of a column, so that its numbers line up. */
+export function decimals_of(results, column) {
+  return column_decimals(
+    results.map((result) => value_at(result, column.path)),
+    column.digits,
+  );
+}
+
+const has_picture = (result) => result.status === "ok" && result.metrics;
+
 /**
- * The results that hold the best value of a column: of those that gave a picture, and none where all are equal.
- * A method that only bounds what is attainable has no metrics and takes no part.
+ * The results that hold the best value of a column by the digits shown: of those that gave a picture, and none where all
+ * are equal. A method that only bounds what is attainable has no metrics and takes no part.
  */
 export function best_results(results, column) {
   if (!column.better) return new Set();
+  const decimals = decimals_of(results, column);
+  const shown = (score) => (column.whole ? integer(score) : fixed(score, decimals));
   const scores = results
-    .filter((result) => result.status === "ok" && result.metrics)
+    .filter(has_picture)
     .map((result) => {
       const value = value_at(result, column.path);
-      if (is_number(value)) return [result, column.better(value)];
-      return [result, column.null_is_perfect && is_perfect(result) ? -Infinity : NaN];
+      if (is_number(value)) return { result, score: column.better(value) };
+      return { result, score: column.null_is_perfect && is_perfect(result) ? -Infinity : NaN };
     })
-    .filter(([, score]) => !Number.isNaN(score));
-  const best = Math.min(...scores.map(([, score]) => score));
-  const worst = Math.max(...scores.map(([, score]) => score));
-  if (scores.length < 2 || best === worst) return new Set();
-  return new Set(scores.filter(([, score]) => score === best).map(([result]) => result));
+    .filter(({ score }) => !Number.isNaN(score))
+    .map((one) => ({ ...one, text: shown(one.score) }));
+  const best = Math.min(...scores.map(({ score }) => score));
+  const { text } = scores.find(({ score }) => score === best) ?? {};
+  const first = scores.filter((one) => one.text === text);
+  if (scores.length < 2 || first.length === scores.length) return new Set();
+  return new Set(first.map(({ result }) => result));
+}
+
+/**
+ * Labels of the methods of a run that may be called fastest: those that the report names. A report from before it named
+ * any is read strictly: of the least median shown, what is resolved faster than the baseline.
+ */
+export function fastest_labels(run) {
+  if (run.frontier?.fastest) return new Set(run.frontier.fastest);
+  const least = best_results(run.results, { path: "timing.median", ...lower });
+  return new Set([...least].filter(({ speedup }) => speedup?.verdict === "faster").map(({ label }) => label));
+}
+
+/** The results that a column of a run's timing table marks. */
+export function fastest_results(run, column) {
+  const labels = column.timed ? fastest_labels(run) : new Set();
+  return new Set(run.results.filter(({ label }) => labels.has(label)));
 }

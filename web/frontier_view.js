@@ -4,10 +4,14 @@ import { value_at } from "./columns.js";
 import { el } from "./dom.js";
 import { column_decimals, fixed, is_number } from "./format.js";
 
-/** `by`: for each dominated method the one that dominates it. */
-function dominated_text(by, better) {
-  const methods = [...by.keys()].filter((method) => by.get(method) === better);
-  return `Grey: ${methods.join(", ")}. ${better} is at least as fast and at least as near to the reference.`;
+/** One line for all methods that are dominated for the same reason. */
+function dominated_lines(dominated) {
+  const methods_of = new Map();
+  for (const { method, by, reason } of dominated) {
+    const why = reason ?? `${by} is at least as fast and at least as near to the reference`;
+    methods_of.set(why, [...(methods_of.get(why) ?? []), method]);
+  }
+  return [...methods_of].map(([why, methods]) => el("p", { class: "muted" }, `Grey: ${methods.join(", ")}. ${why}.`));
 }
 
 /** Null where the report has no frontier. */
@@ -64,7 +68,7 @@ export function frontier_section(run) {
         {},
         frontier.sentences.map((sentence) => el("li", {}, sentence)),
       ),
-      [...new Set(by.values())].map((better) => el("p", { class: "muted" }, dominated_text(by, better))),
+      dominated_lines(frontier.dominated),
     ),
   );
 }

@@ -38,7 +38,7 @@ export function input_range(param) {
     if (!param.exclusive) return value;
     return is_whole(param) ? value + direction : next_number(value, direction);
   };
-  return { min: bound(param.min, 1), max: bound(param.max, -1), step: is_whole(param) ? 1 : "any" };
+  return { min: bound(param.min, 1), max: bound(param.max, -1), step: is_whole(param) ? (param.step ?? 1) : "any" };
 }
 
 /** What an input of numbers holds: undefined where it is empty, null where it is no number, which the service refuses. */

@@ -60,13 +60,21 @@ function actions(main, report) {
   ];
 }
 
+/** How a comparison ended that was not done. */
+function ended_text({ status, error }) {
+  return status === "cancelled" ? "This comparison was cancelled." : `Rendering failed: ${error_text(error)}`;
+}
+
 async function show_settled(main, report) {
   document.title = `${report.spec?.title || "Report"} – Sheer`;
-  if (report.status === "done") {
+  // What a job that ended early has finished is shown as well.
+  const is_done = report.status === "done";
+  if (is_done || report.runs?.length > 0) {
     // Without the descriptions the report is there all the same, only with fewer captions.
     const [methods, metrics] = await Promise.all([get_methods().catch(() => []), get_metrics().catch(() => [])]);
     set_children(
       main,
+      is_done || report.error ? null : message("info", ended_text(report)),
       report_view(report, {
         picture_url: (image) => image.url,
         methods,
@@ -77,12 +85,10 @@ async function show_settled(main, report) {
     );
     return;
   }
-  const text =
-    report.status === "cancelled" ? "This comparison was cancelled." : `Rendering failed: ${error_text(report.error)}`;
   set_children(
     main,
     el("h1", {}, report.spec?.title || "Untitled comparison"),
-    message(report.status === "cancelled" ? "info" : "error", text),
+    message(report.status === "cancelled" ? "info" : "error", ended_text(report)),
     el(
       "div",
       { class: "actions" },

@@ -1,7 +1,7 @@
 // A finished report as a page part. The served page and the self-contained file both show reports with this.
 import { value_at } from "./columns.js";
 import { el, set_children } from "./dom.js";
-import { fixed, is_number, short_value, when, words } from "./format.js";
+import { fixed, integer, is_number, short_value, when, words } from "./format.js";
 import { frontier_section } from "./frontier_view.js";
 import { ImageViewer } from "./image_viewer.js";
 import { note_list } from "./notes.js";
@@ -60,6 +60,11 @@ function pictures_of(images, picture_url) {
   );
 }
 
+/** Why there is no picture; null where there is one. Reports from before references could fail give them no status. */
+function status_text({ status = "ok", reason } = {}) {
+  return status === "ok" ? null : `${words(status)}: ${reason ?? "no reason given"}`;
+}
+
 function sources_of(run, picture_url) {
   const reference = {
     key: "reference",
@@ -67,7 +72,7 @@ function sources_of(run, picture_url) {
     reference: true,
     title: run.reference?.method,
     pictures: pictures_of(run.reference?.images, picture_url),
-    missing: "The report has no reference picture",
+    missing: status_text(run.reference) ?? "The report has no reference picture",
   };
   return [
     reference,
@@ -76,10 +81,7 @@ function sources_of(run, picture_url) {
       label: result.label,
       title: result.method,
       pictures: pictures_of(result.images, picture_url),
-      missing:
-        result.status === "ok"
-          ? (result.metrics_reason ?? "")
-          : `${words(result.status)}: ${result.reason ?? "no reason given"}`,
+      missing: status_text(result) ?? result.metrics_reason ?? "",
     })),
   ];
 }
@@ -119,6 +121,7 @@ function reference_text(run) {
   const unknown = run.reference?.residual_reason;
   return [
     run.reference?.method,
+    status_text(run.reference),
     ...residuals.map(([name, value]) =>
       value === 0 ? `agrees exactly with ${name}` : `differs from ${name} by at most ${value.toPrecision(2)}`,
     ),
@@ -128,8 +131,15 @@ function reference_text(run) {
     .join(", ");
 }
 
+/** A report fails by its checks, and by what could not be rendered. */
+function verdict_chip({ verdict, checks = [] }) {
+  if (!verdict || verdict === "none") return null;
+  const by_checks = checks.some((check) => !check.passed) || verdict === "passed";
+  return el("span", { class: `verdict ${verdict}` }, by_checks ? `Checks ${verdict}` : words(verdict));
+}
+
 function header(report) {
-  const { spec = {}, device = {}, verdict, runs = [] } = report;
+  const { spec = {}, device = {}, runs = [] } = report;
   const image = spec.image ?? {};
   const axes = axes_of(spec);
   const tags = Object.entries(spec.tags ?? {});
@@ -140,9 +150,10 @@ function header(report) {
       "div",
       { class: "title-line" },
       el("h1", {}, spec.title || "Untitled comparison"),
-      verdict && verdict !== "none" ? el("span", { class: `verdict ${verdict}` }, `Checks ${verdict}`) : null,
+      verdict_chip(report),
       tags.map(([name, value]) => el("span", { class: "chip tag" }, `${name}: ${short_value(value)}`)),
     ),
+    report.verdict_reason ? el("p", { class: "verdict-reason" }, report.verdict_reason) : null,
     facts([
       ["Scene", scene_text(unswept(spec).scene)],
       ...axes.map((axis) => ["Sweep", `${axis.name}: ${axis.stops.map((stop) => stop.text).join(" · ")}`]),
@@ -208,12 +219,7 @@ function notes_list(notes = []) {
   return el(
     "section",
     { class: "notes", "aria-label": "Notes" },
-    el(
-      "h2",
-      {},
-      notes.length === 1 ? "Note" : `${notes.length} notes`,
-      el("span", { class: "muted" }, "what of the input was not read, or read otherwise"),
-    ),
+    el("h2", {}, notes.length === 1 ? "Note" : `${notes.length} notes`),
     note_list(notes),
   );
 }
@@ -291,6 +297,25 @@ function colour_text(space) {
   return space ? [space.values, `blended ${space.blending}`].join("; ") : "";
 }
 
+/** Every file that the report drew from. */
+function files_part(files = []) {
+  if (files.length === 0) return null;
+  const of_file = ({ pointer, name, of, sha256, bytes }) =>
+    el(
+      "li",
+      {},
+      el("strong", {}, name === sha256 ? pointer : name),
+      el("span", { class: "muted" }, ` ${of ? `of ${of}, ` : ""}${pointer}, ${integer(bytes)} bytes`),
+      el("code", {}, sha256),
+    );
+  return el(
+    "details",
+    {},
+    el("summary", {}, files.length === 1 ? "1 file" : `${files.length} files`),
+    el("ul", { class: "source-files", "aria-label": "Files" }, files.map(of_file)),
+  );
+}
+
 function origin(report) {
   const { device = {}, provenance = {} } = report;
   const rows = [
@@ -312,6 +337,7 @@ function origin(report) {
     "div",
     { class: "details-row" },
     el("details", {}, el("summary", {}, "Device and origin"), facts(rows)),
+    files_part(report.files),
     el(
       "details",
       {},

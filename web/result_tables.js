@@ -3,9 +3,13 @@ import { append, el } from "./dom.js";
 import {
   best_results,
   column_title,
+  decimals_of,
   DIFFERENCE_COLUMNS,
+  fastest_results,
   FRAGMENT_COLUMNS,
   missing_reason,
+  SORT_COLUMN,
+  SORTED_SPEEDUP_COLUMN,
   SPEEDUP_COLUMN,
   TIMING_COLUMNS,
   value_at,
@@ -90,20 +94,20 @@ function interval_text(ci95) {
   return Array.isArray(ci95) && ci95.every(is_number) ? ci95.map((bound) => fixed(bound, 2)).join("–") : null;
 }
 
-function speedup_cell(result, decimals, best) {
-  const cell = number_cell(result, SPEEDUP_COLUMN, decimals, best);
-  const { ci95, verdict, reason } = result.speedup ?? {};
-  if (!cell.dataset.value) return cell;
-  const interval = interval_text(ci95);
-  return append(
-    cell,
+/** `judged`: the result's speed-up of that column; the baseline's to itself needs no verdict. */
+function speedup_cell(result, column, { judged, decimals, best, is_baseline }) {
+  const cell = number_cell(result, column, decimals, best);
+  const { ci95, verdict, reason } = judged ?? {};
+  if (!cell.dataset.value || is_baseline) return cell;
+  return append(cell, [
     el(
       "span",
       { class: "interval" },
-      interval,
-      verdict ? el("span", { class: `verdict-word ${verdict.replace(" ", "-")}`, title: reason }, verdict) : null,
+      interval_text(ci95),
+      verdict ? el("span", { class: `verdict-word ${verdict.replace(" ", "-")}` }, verdict) : null,
     ),
-  );
+    reason ? el("span", { class: "interval why" }, reason) : null,
+  ]);
 }
 
 function head_cell(column, metrics) {
@@ -130,18 +134,13 @@ function scroll_box(label, table) {
   return el("div", { class: "table-box", tabindex: "0", role: "region", "aria-label": label }, table);
 }
 
-function decimals_of(results, column) {
-  return column_decimals(
-    results.map((result) => value_at(result, column.path)),
-    column.digits,
-  );
-}
-
 /** How many rounds were timed, and how far the baseline is from itself. */
 function trust_text(run) {
   const { rounds, noise_floor } = run;
   const texts = [];
-  if (rounds) {
+  if (rounds?.done < rounds?.needed) {
+    texts.push(`too few rounds: ${rounds.done}, needs ${rounds.needed}`);
+  } else if (rounds) {
     const done = rounds.done < rounds.asked ? `${rounds.done} of ${rounds.asked}` : rounds.done;
     texts.push(`${done} rounds${rounds.done < rounds.asked ? ", ended by max_seconds" : ""}`);
   }
@@ -154,6 +153,16 @@ function trust_text(run) {
   return texts.join(" · ");
 }
 
+/** How the speed-ups are to be read. */
+function reading_text(with_sort) {
+  const paired =
+    "A speed-up is the median of the ratios to the baseline round by round, not the ratio of the medians. A time is " +
+    "marked as the best where it is resolved: its interval excludes 1 and it lies outside the noise floor.";
+  const sort =
+    " Frames are drawn in an order made before; Sort is what making it anew takes, and With sort adds it to each frame.";
+  return with_sort ? paired + sort : paired;
+}
+
 /** `context`: {methods, metrics, baseline, show_pixel(x, y, result)}. */
 export function timing_table(run, context) {
   const { results } = run;
@@ -161,23 +170,41 @@ export function timing_table(run, context) {
   const decimals = column_decimals(results.map((result) => value_at(result, "timing.median")));
   const decimals_in = (column) => (column.digits ? decimals_of(results, column) : decimals);
   const with_speedup = results.some((result) => result.speedup);
-  const best = new Map([...columns, SPEEDUP_COLUMN].map((column) => [column, best_results(results, column)]));
+  const with_sort = results.some((result) => is_number(value_at(result, SORT_COLUMN.path)));
+  const tail = [
+    with_speedup ? SPEEDUP_COLUMN : null,
+    ...(with_sort ? [SORT_COLUMN, SORTED_SPEEDUP_COLUMN] : []),
+  ].filter(Boolean);
+  const tail_cell = (result, column) => {
+    const decimals = decimals_of(results, column);
+    if (column === SORT_COLUMN) return number_cell(result, column, decimals, new Set());
+    return speedup_cell(result, column, {
+      judged: value_at(result, column.path.split(".")[0]),
+      decimals,
+      best: fastest_results(run, column),
+      is_baseline: result.label === context.baseline,
+    });
+  };
   const end = axis_end(Math.max(0, ...results.flatMap(timing_samples)));
   const mark = value_at(results.find((result) => result.label === context.baseline) ?? {}, "timing.median");
   const clocks = [...new Set(results.map((result) => result.timing?.clock).filter(Boolean))];
   const body = results.map((result) => {
     const heading = method_cell(result, context);
     if (result.status !== "ok") {
-      return el("tr", { class: "no-result" }, heading, reason_cell(result, columns.length + (with_speedup ? 2 : 1)));
+      return el("tr", { class: "no-result" }, heading, reason_cell(result, columns.length + tail.length + 1));
     }
     const samples = timing_samples(result);
     return el(
       "tr",
       { "data-label": result.label },
       heading,
-      el("td", { class: "strip-cell" }, samples.length > 0 ? timing_strip(samples, end, mark, result.timing.outliers) : null),
-      columns.map((column) => number_cell(result, column, decimals_in(column), best.get(column))),
-      with_speedup ? speedup_cell(result, decimals_of(results, SPEEDUP_COLUMN), best.get(SPEEDUP_COLUMN)) : null,
+      el(
+        "td",
+        { class: "strip-cell" },
+        samples.length > 0 ? timing_strip(samples, end, mark, result.timing.outliers) : null,
+      ),
+      columns.map((column) => number_cell(result, column, decimals_in(column), fastest_results(run, column))),
+      tail.map((column) => tail_cell(result, column)),
     );
   });
   return scroll_box(
@@ -194,6 +221,7 @@ export function timing_table(run, context) {
           { class: "muted" },
           ` ${[clocks.length > 0 ? `${clocks.join(" and ")} clock` : null, trust_text(run)].filter(Boolean).join(" · ")}`,
         ),
+        with_speedup ? el("span", { class: "caption-line" }, reading_text(with_sort)) : null,
       ),
       el(
         "thead",
@@ -209,7 +237,7 @@ export function timing_table(run, context) {
             el("span", { class: "axis-text" }, el("span", {}, "0"), el("span", {}, `${end} ms`)),
           ),
           columns.map((column) => head_cell(column, [])),
-          with_speedup ? head_cell(SPEEDUP_COLUMN, []) : null,
+          tail.map((column) => head_cell(column, [])),
         ),
       ),
       el("tbody", {}, body),

@@ -1,7 +1,7 @@
 // Models, textures and volumes brought through the page: what it says of them, and what is then in the spec.
 import assert from "node:assert/strict";
 import { glb, three_squares } from "../service/glb.mjs";
-import { plain_png } from "../service/pictures.mjs";
+import { plain_png, png } from "../service/pictures.mjs";
 import { assert_accessible, field, service_tests } from "./harness.mjs";
 
 const tests = service_tests();
@@ -11,20 +11,8 @@ const spec_of = async (page) => JSON.parse(await page.getByLabel("Spec as JSON")
 const upload = (page, pointer, name, buffer) =>
   page.locator(`${field(pointer)} input[type=file]`).setInputFiles({ name, mimeType: "", buffer });
 
-/** A volume with an axis that is no direction, which is read and noted: `centerings` is not. */
-function noted_volume() {
-  const header = [
-    "NRRD0004",
-    "type: uint8",
-    "dimension: 3",
-    "sizes: 2 2 2",
-    "encoding: raw",
-    'units: "mm" "mm" "mm"',
-    "space directions: (1,0,0) (0,1,0) (0,0.5,1)",
-    "space: left-posterior-superior",
-  ];
-  return Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from([0, 40, 80, 120, 160, 200, 240, 255])]);
-}
+/** A picture with a row more than its header says, which is noted. */
+const long_png = () => png(2, 2, 2, Array(3).fill(Buffer.from([1, 2, 3, 4, 5, 6])));
 
 page_test("an uploaded model is drawn in its own colours", { expected_statuses: [422] }, async (page) => {
   await page.goto(`${tests.url()}/#/`);
@@ -90,7 +78,7 @@ page_test(
     model.json.nodes[0].extensions = { KHR_lights_punctual: { light: 0 } };
     const files = [
       ["gltf", "/scene/model", "noted.glb", glb(model)],
-      ["volume", "/scene/volume/data", "noted.nrrd", noted_volume()],
+      ["foliage", "/scene/texture/image", "long.png", long_png()],
     ];
     await page.goto(`${tests.url()}/#/`);
     for (const [type, pointer, name, bytes] of files) {
@@ -104,8 +92,9 @@ page_test(
       await page.reload();
       await page.locator(`${field(pointer)} option`, { hasText: name }).waitFor({ state: "attached" });
       assert.deepEqual(await shown(), expected, `${name} after a reload`);
-      if (type === "volume") {
-        await page.locator(`${field(pointer)} select`).selectOption("head");
+      if (type === "foliage") {
+        assert.ok(expected.length > 0, "the picture has notes");
+        await page.locator(`${field(pointer)} select`).selectOption("leaf");
         assert.deepEqual(await shown(), [], "notes go with their file");
       }
     }

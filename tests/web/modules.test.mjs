@@ -70,7 +70,7 @@ module_test(
 );
 
 module_test(
-  "the best of a column: nearest to no error, and none where there is nothing to choose",
+  "the best of a column: nearest to no error by the digits shown, and none where there is nothing to choose",
   "columns.js",
   ({ best_results, DIFFERENCE_COLUMNS, TIMING_COLUMNS, missing_reason }) => {
     const result = (label, median, psnr, min, extra = {}) => ({
@@ -93,21 +93,57 @@ module_test(
       best("timing.median"),
       best("metrics.psnr"),
       best("metrics.signed.min"),
-      best("timing.median", [results[0], results[0]]),
+      best("metrics.signed.min", [results[1], results[1]]),
+      best("metrics.psnr", [result("a", 1, 50.0001, 0), result("b", 1, 50.0002, 0), result("c", 1, 40, 0)]),
+      best("metrics.psnr", [result("a", 1, 50.0001, 0), result("b", 1, 50.0002, 0)]),
       missing_reason(results[0], column("metrics.psnr")),
       missing_reason(results[3], column("metrics.psnr")),
       missing_reason(results[4], column("timing.median")),
     ];
   },
   [
-    ["far"],
+    [],
     ["identical"],
     ["identical"],
+    [],
+    ["a", "b"],
     [],
     "none: identical to the reference",
     "draws nothing",
     "failed: out of memory",
   ],
+);
+
+module_test(
+  "fastest is only what is resolved, and no slower by the digits shown than what is not",
+  "columns.js",
+  ({ fastest_labels, fastest_results, SPEEDUP_COLUMN, TIMING_COLUMNS }) => {
+    const result = (label, median, verdict, metrics = {}) => ({
+      label,
+      status: "ok",
+      timing: { median },
+      speedup: { verdict },
+      metrics,
+    });
+    const base = result("base", 100, "not resolved");
+    const labels = (results, frontier = null) => [...fastest_labels({ results, frontier })];
+    const run = { results: [base, result("named", 1, "faster")], frontier: { fastest: ["named"] } };
+    const column = (path) => TIMING_COLUMNS.find((one) => one.path === path);
+    const marks = (one) => [...fastest_results(run, one)].map(({ label }) => label);
+    return [
+      labels([base, result("quick", 50, "faster"), result("slow", 200, "slower")]),
+      labels([base, result("perhaps", 50, "not resolved")]),
+      labels([base, result("quick", 60, "faster"), result("perhaps", 50, "not resolved")]),
+      labels([base, result("a", 50.0001, "faster"), result("b", 50.0002, "faster"), result("c", 51, "faster")]),
+      labels([base, result("bound", 1, "faster", null), result("quick", 50, "faster")]),
+      labels([base, result("slow", 200, "slower")]),
+      labels([base, result("quick", 50, "faster")], { fastest: [] }),
+      marks(column("timing.median")),
+      marks(column("timing.min")),
+      marks(SPEEDUP_COLUMN),
+    ];
+  },
+  [["quick"], [], [], ["a", "b"], ["quick"], [], [], ["named"], [], ["named"]],
 );
 
 module_test(

@@ -75,9 +75,6 @@ page_test("the tables show the numbers of the report", {}, async (page) => {
       }
     }
   }
-  const fastest = results.reduce((best, result) => (result.timing.median < best.timing.median ? result : best));
-  const marked = await page.locator("td.best[data-path='timing.median']").getAttribute("data-value");
-  assert.equal(Number(marked), fastest.timing.median);
 });
 
 const loaded = (page) =>

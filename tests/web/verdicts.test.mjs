@@ -1,0 +1,155 @@
+// What a report says beside its numbers: notes, reasons, verdicts, and the files that it drew from.
+import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { png } from "../service/pictures.mjs";
+import { assert_accessible, at, service_tests } from "./harness.mjs";
+
+const tests = service_tests();
+const { page_test, api, post_report } = tests;
+
+const FOLIAGE = {
+  image: { width: 48, height: 48 },
+  scene: { type: "foliage", trees: 1, planes_per_tree: 20, texture: { size: 16 } },
+};
+
+async function finished(spec) {
+  const report = await post_report(spec, { Prefer: "wait=60" });
+  assert.equal(report.status, "done", JSON.stringify(report));
+  return report;
+}
+
+async function open_report(page, report) {
+  await page.goto(`${tests.url()}/#/reports/${report.id}`);
+  await page.locator("article.report").waitFor();
+}
+
+/** The self-contained file of a report, opened without a network. */
+async function open_file(page, report) {
+  const file = join(tests.folder(), `${report.id}.html`);
+  writeFileSync(file, await (await fetch(`${tests.url()}/api/v1/reports/${report.id}/report.html`)).text());
+  await page.context().setOffline(true);
+  await page.goto(`file://${file}`);
+  await page.locator("article.report").waitFor();
+}
+
+/** A picture with a row more than its header says, which is noted when it is read. */
+const NOTED = png(2, 2, 2, Array(3).fill(Buffer.from([9, 8, 7, 6, 5, 4])));
+
+async function upload(bytes, name) {
+  const answer = await fetch(`${tests.url()}/api/v1/assets?name=${name}`, {
+    method: "POST",
+    headers: { "Content-Type": "image/png" },
+    body: bytes,
+  });
+  assert.equal(answer.status, 201);
+  return answer.json();
+}
+
+page_test("notes stand near the head, on the page and in the file", { origin: undefined }, async (page) => {
+  const { sha256 } = await upload(NOTED, "noted.png");
+  const scene = { ...FOLIAGE.scene, texture: { image: sha256, size: 16 } };
+  const report = await finished({ ...FOLIAGE, scene, methods: ["b2f"], timing: { rounds: 1 } });
+  assert.ok(report.notes.length > 0);
+  const look = async () => {
+    const section = page.getByRole("region", { name: "Notes" });
+    const shown = await section.locator("li").evaluateAll((all) =>
+      all.map((one) => ({
+        code: one.dataset.code,
+        where: one.querySelector(".where")?.textContent ?? null,
+        text: one.lastElementChild.textContent,
+      })),
+    );
+    assert.deepEqual(
+      shown,
+      report.notes.map(({ code, text, where }) => ({ code, where, text })),
+    );
+    const [notes, pictures] = [await section.boundingBox(), await page.locator("figure.pane").first().boundingBox()];
+    assert.ok(notes.y < pictures.y, "the notes come before the pictures");
+  };
+  await open_report(page, report);
+  await look();
+  await page.locator("summary", { hasText: "1 file" }).click();
+  const file = await page.getByRole("list", { name: "Files" }).textContent();
+  assert.ok(file.includes(createHash("sha256").update(NOTED).digest("hex")), file);
+  await assert_accessible(page, "a report with notes");
+  await open_file(page, report);
+  await look();
+});
+
+page_test("a report without notes has no place for them", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
+  await page.locator("article.report").waitFor();
+  assert.deepEqual((await api(`/reports/${tests.report_id()}`)).notes, []);
+  assert.equal(await page.getByRole("region", { name: "Notes" }).count(), 0);
+});
+
+page_test("a method that cannot run says why, and the others are shown", {}, async (page) => {
+  const sorted = { id: "exact", form: "sorted", label: "lists in order" };
+  const report = await finished({ ...FOLIAGE, methods: ["b2f", sorted], timing: { rounds: 1 } });
+  const [, result] = report.runs[0].results;
+  assert.equal(result.status, "unsupported");
+  await open_report(page, report);
+  assert.equal(await page.locator("figure.pane").count(), 2);
+  for (const table of ["timings", "fragments", "differences"]) {
+    const row = page.locator(`table.${table} tr`, { has: page.getByText("lists in order") });
+    assert.match(await row.textContent(), /unsupported/);
+    assert.ok((await row.textContent()).includes(result.reason), table);
+  }
+  assert.ok((await page.locator(".viewer").textContent()).includes(result.reason), "where its picture would be");
+  await assert_accessible(page, "a report with a method that cannot run");
+});
+
+/** Values of the marked cells of a table: [{label, path}]. */
+const marked = (page) =>
+  page.$$eval("table.results td.best", (cells) =>
+    cells.map((cell) => ({ label: cell.closest("tr").dataset.label, path: cell.dataset.path })),
+  );
+
+page_test("no time is marked that is not resolved", {}, async (page) => {
+  const methods = ["b2f", "f2b", { id: "b2f", label: "the same" }, { id: "f2bd", threshold: 0.5 }, "unsorted"];
+  const scene = { type: "quads", count: 64, shading: "4-textures", texture: { size: 64 } };
+  for (const rounds of [1, 3, 12]) {
+    const report = await finished({ image: { width: 64, height: 64 }, scene, methods, timing: { rounds } });
+    await open_report(page, report);
+    const { results } = report.runs[0];
+    const times = (await marked(page)).filter(({ path }) => /^(timing|speedup)/.test(path));
+    for (const { label, path } of times) {
+      const { speedup } = results.find((result) => result.label === label);
+      assert.equal(speedup.verdict, "faster", `${label} ${path} after ${rounds} rounds`);
+      assert.ok(speedup.ci95[0] > 1);
+    }
+    if (rounds < 8) {
+      assert.deepEqual(times, [], "without intervals nothing is resolved");
+      assert.match(await page.locator("table.timings").textContent(), /too few rounds/);
+    }
+    const words = page.locator("table.timings tr[data-label] .verdict-word.faster");
+    const faster = results.filter(({ speedup }) => speedup.verdict === "faster").length;
+    assert.ok((await words.count()) >= faster);
+    if (faster === 0) assert.equal(await words.count(), 0);
+  }
+});
+
+page_test("equal values of a column are marked alike", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
+  await page.locator("article.report").waitFor();
+  const columns = await page.$$eval("table.differences td[data-path]", (cells) => {
+    const all = {};
+    for (const cell of cells)
+      (all[cell.dataset.path] ??= []).push({ text: cell.childNodes[0].textContent, best: cell.matches(".best") });
+    return all;
+  });
+  assert.ok(Object.keys(columns).length > 5);
+  for (const [path, cells] of Object.entries(columns)) {
+    const best = new Set(cells.filter((cell) => cell.best).map(({ text }) => text.replace("−", "")));
+    for (const { text, best: is_best } of cells)
+      assert.equal(best.has(text.replace("−", "")), is_best, `${path}: ${text} is marked like its equals`);
+    assert.ok(
+      cells.some((cell) => !cell.best),
+      `${path}: not everything is best`,
+    );
+  }
+  const { results } = (await api(`/reports/${tests.report_id()}`)).runs[0];
+  assert.ok(results.some((result) => at(result, "metrics.flip.mean") > 0));
+});
