@@ -86,7 +86,7 @@ class AssetControl {
     const { notes = [], media_type } = this.#uploaded.find(({ sha256 }) => sha256 === this.#current) ?? {};
     set_children(
       this.#notes,
-      media_type === RAW ? el("p", { class: "hint" }, "It has no header: “raw” must say what it holds.") : null,
+      media_type === RAW ? el("p", { class: "hint" }, "It has no header: say below what it holds.") : null,
       note_list(notes),
     );
   }
@@ -95,6 +95,8 @@ class AssetControl {
     this.#current = value;
     this.#draw_notes();
     this.#on_change(value);
+    const { media_type } = this.#uploaded.find(({ sha256 }) => sha256 === value) ?? {};
+    this.element.dispatchEvent(new CustomEvent("filechosen", { bubbles: true, detail: { bare: media_type === RAW } }));
   }
 
   #say(text, is_error = false) {

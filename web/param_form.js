@@ -221,7 +221,13 @@ function numbers_field(param, path, model) {
 
 function object_field(param, path, model) {
   if (param.optional) return optional_object_field(param, path, model);
-  return field_frame(param, path, fields_of(param.fields ?? [], path, model), { group: true });
+  const fields = fields_of(param.fields ?? [], path, model);
+  // Beside a file the object that may be left out says what the bytes are: needed without a header, else of no use.
+  fields.addEventListener("filechosen", ({ detail }) => {
+    const box = fields.querySelector(":scope > .kind-object .ticked input");
+    if (box && box.checked !== detail.bare) box.click();
+  });
+  return field_frame(param, path, fields, { group: true });
 }
 
 /** An object that may be left out: a box that puts it into the spec, and its fields while it is there. */

@@ -39,7 +39,8 @@ page_test("a raw volume is described in the form", { expected_statuses: [422] },
     .locator(`${field("/scene/volume/data")} .asset-notes`)
     .getByText("no header")
     .waitFor();
-  await page.getByLabel("Set the raw").check();
+  const raw = page.getByLabel("Set the raw");
+  assert.equal(await raw.isChecked(), true, "a file without a header needs it");
   for (const [index, side] of [4, 3, 2].entries())
     await page
       .locator(`${field("/scene/volume/raw/size")} input`)
@@ -65,6 +66,9 @@ page_test("a raw volume is described in the form", { expected_statuses: [422] },
     .locator(`${field("/scene/volume/raw/size")} > .error-text`)
     .getByText("whole number")
     .waitFor();
+  await page.locator(`${field("/scene/volume/data")} select`).selectOption("head");
+  assert.equal(await raw.isChecked(), false, "the head has no use for it");
+  await page.getByText("The spec is valid.").waitFor();
 });
 
 page_test(
