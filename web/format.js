@@ -57,16 +57,21 @@ export function ago(text, now = Date.now()) {
   return when(text);
 }
 
-/** `value` in one line: 0.02, leaf, [0, 0, 0], {…}. */
+const SHA256 = /^[0-9a-f]{64}$/;
+const SHOWN_DIGITS = 12;
+
+/** `value` in one line: 0.02, leaf, [0, 0, 0], {…}; of a file's SHA-256 the first digits. */
 export function short_value(value) {
   if (Array.isArray(value))
     return value.length > 4 ? `${value.length} items` : `[${value.map(short_value).join(", ")}]`;
   if (value !== null && typeof value === "object") {
     return Object.entries(value)
+      .filter(([, part]) => part !== null)
       .map(([key, part]) => `${key} ${short_value(part)}`)
       .join(", ");
   }
-  return String(value);
+  const text = String(value);
+  return SHA256.test(text) ? `${text.slice(0, SHOWN_DIGITS)}…` : text;
 }
 
 const ABBREVIATIONS = new Set(["glsl"]);

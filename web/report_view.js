@@ -90,7 +90,8 @@ function sources_of(run, picture_url) {
 export function scene_text(scene) {
   if (!scene) return "";
   const { type, layers, ...rest } = scene;
-  const facts = Object.entries(rest).map(([name, value]) =>
+  const given = Object.entries(rest).filter(([, value]) => value !== null);
+  const facts = given.map(([name, value]) =>
     typeof value === "object" && value !== null ? short_value(value) : `${name} ${short_value(value)}`,
   );
   if (Array.isArray(layers)) facts.unshift(layers.length === 1 ? "1 layer" : `${layers.length} layers`);

@@ -55,7 +55,7 @@ module_test(
 module_test(
   "numbers line up and a missing one is a dash",
   "format.js",
-  ({ column_decimals, fixed, integer, zoom_text }) => [
+  ({ column_decimals, fixed, integer, short_value, zoom_text }) => [
     column_decimals([12.3, 0.0456, null]),
     column_decimals([1, 20, 0]),
     column_decimals([]),
@@ -65,8 +65,10 @@ module_test(
     fixed(1e-9, 3),
     integer(-12345),
     zoom_text(0.0625),
+    short_value({ data: "ab01".repeat(16), raw: null, sides: [1, 2.5] }),
+    short_value("ab01".repeat(10)),
   ],
-  [4, 0, 0, "−1.0", "0", "–", "1.0e−9", "−12,345", "6 %"],
+  [4, 0, 0, "−1.0", "0", "–", "1.0e−9", "−12,345", "6 %", "data ab01ab01ab01…, sides [1, 2.5]", "ab01".repeat(10)],
 );
 
 module_test(
