@@ -13,6 +13,7 @@
 #include "renderer/frame/needed.h"
 #include "renderer/frame/overdraw.h"
 #include "renderer/methods/method.h"
+#include "renderer/number_text.h"
 #include "renderer/scene/random.h"
 
 namespace sheer {
@@ -121,8 +122,8 @@ class Comparer {
         m_timer.end_frame();
         const double peeled = peeled_fragments(run.overdraw);
         if (peeled > max_peeled_fragments) {
-            run.no_residual_reason = fmt::format("depth peeling would draw {:.3g} fragments; the limit is {:.3g}",
-                                                 peeled, max_peeled_fragments);
+            run.no_residual_reason = fmt::format("depth peeling would draw {} fragments; the limit is {}",
+                                                 number_text(peeled), number_text(max_peeled_fragments));
             return;
         }
         m_progress(references_begin, "checking the reference against depth peeling");

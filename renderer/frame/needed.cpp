@@ -5,6 +5,7 @@
 #include "renderer/frame/accumulation.h"
 #include "renderer/frame/count_image.h"
 #include "renderer/frame/depth_peeler.h"
+#include "renderer/number_text.h"
 
 namespace sheer {
 
@@ -59,9 +60,8 @@ std::string why_needed_is_unknown(const Scene& scene, const PixelCounts& overdra
     if (!scene.parallel()) {
         const double peeled = peeled_fragments(overdraw);
         if (peeled <= max_peeled_fragments) return "";
-        return fmt::format(
-            "primitives may intersect, and peeling them would draw {:.3g} fragments; the limit is {:.3g}", peeled,
-            max_peeled_fragments);
+        return fmt::format("primitives may intersect, and peeling them would draw {} fragments; the limit is {}",
+                           number_text(peeled), number_text(max_peeled_fragments));
     }
     if (scene.transparent_count() > most_primitives)
         return "each primitive must be drawn by itself, and there are over " + std::to_string(most_primitives);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "renderer/number_text.h"
 #include "renderer/report/measured.h"
 
 namespace sheer {
@@ -26,7 +27,8 @@ struct Candidate {
         return time_ms <= other.time_ms && error <= other.error && (time_ms < other.time_ms || error < other.error);
     }
     std::string shown() const {
-        std::string text = fmt::format("{} with an error of {:.2g} in {:.3g} ms", label, error, time_ms);
+        std::string text =
+            fmt::format("{} with an error of {} in {} ms", label, number_text(error, 2), number_text(time_ms));
         if (!speedup.is_object()) return text;
         text += fmt::format(", {:.2f} times the baseline's speed", speedup["value"].get<double>());
         const json& interval = speedup["ci95"];

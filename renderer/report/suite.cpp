@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/number_text.h"
 #include "renderer/report/measured.h"
 #include "renderer/spec/sweep.h"
 
@@ -75,7 +76,7 @@ class Trend {
                 note(false, false, "not measured" + place(*run));
             } else {
                 note(a->low > b->high, a->high < b->low,
-                     fmt::format("{:.3g} against {:.3g}{}", a->value, b->value, place(*run)));
+                     fmt::format("{} against {}{}", number_text(a->value), number_text(b->value), place(*run)));
             }
         }
     }
@@ -94,7 +95,7 @@ class Trend {
         std::string list;
         bool falls = false;
         for (std::size_t i = 0; i < values.size(); ++i) {
-            list += fmt::format("{}{:.3g}", i == 0 ? "" : ", ", values[i].value);
+            list += (i == 0 ? "" : ", ") + number_text(values[i].value);
             falls = falls || (i > 0 && values[i].high < values[i - 1].low);
         }
         const bool grows = values.back().low > values.front().high;
@@ -112,7 +113,7 @@ class Trend {
                 }
                 const bool inside = found->low >= low && found->high <= high;
                 const bool outside = found->high < low || found->low > high;
-                note(inside, outside, fmt::format("{:.3g}{}", found->value, place(*run)));
+                note(inside, outside, number_text(found->value) + place(*run));
             }
         }
     }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "renderer/number_text.h"
+#include "renderer/report/check_text.h"
 #include "renderer/report/report.h"
+#include "renderer/report/sweep_table.h"
 #include "renderer/report/text_table.h"
 #include "renderer/spec/sweep.h"
 
@@ -88,7 +91,7 @@ std::string captions(const json& run, const std::string& baseline) {
     std::string text =
         fmt::format("d: {} minus method, in 8-bit levels.", run["reference"]["method"].get<std::string>());
     const json& residual = run["reference"]["residual"]["depth_peeling"];
-    if (residual.is_number()) text += fmt::format(" Residual to depth peeling {:.2g}.", residual.get<double>());
+    if (residual.is_number()) text += fmt::format(" Residual to depth peeling {}.", number_text(residual, 2));
     const int done = run["rounds"]["done"], asked = run["rounds"]["asked"];
     text += fmt::format("\nSpeedup over {}, {} of {} rounds{}.", baseline, done, asked,
                         done < asked ? ", ended by max_seconds" : "");
@@ -108,8 +111,8 @@ std::string note_lines(const json& notes) {
 }
 
 std::string published_text(const json& published) {
-    if (published.is_number()) return fmt::format("{:.3g}", published.get<double>());
-    return fmt::format("{:.3g} to {:.3g}", published[0].get<double>(), published[1].get<double>());
+    if (published.is_number()) return number_text(published);
+    return fmt::format("{} to {}", number_text(published[0]), number_text(published[1]));
 }
 
 /// Published beside measured, then what became of each trend.
@@ -117,7 +120,8 @@ std::string suite_text(const json& suite) {
     std::vector<Row> rows = {{"at", "method", "metric", "published", "measured"}};
     for (const json& figure : suite["figures"])
         rows.push_back({describe_point(figure["at"]), figure["method"], figure["metric"],
-                        published_text(figure["published"]), number(figure, "/measured", "{:.3g}")});
+                        published_text(figure["published"]),
+                        figure["measured"].is_number() ? number_text(figure["measured"]) : "-"});
     std::string text =
         fmt::format("\n{}\nPublished figures were measured on {}.\n\n{}\n", suite["source"].get<std::string>(),
                     suite["device"].get<std::string>(), aligned(rows));
@@ -125,6 +129,16 @@ std::string suite_text(const json& suite) {
         text += fmt::format("{:<12}  {}: {}\n", trend["verdict"].get<std::string>(), trend["text"].get<std::string>(),
                             trend["detail"].get<std::string>());
     return text;
+}
+
+std::string check_line(const json& check) {
+    const std::string point = describe_point(check["at"]);
+    std::string line = fmt::format("{}  {} of {}{} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",
+                                   check["metric"].get<std::string>(), check["method"].get<std::string>(),
+                                   point.empty() ? "" : " at " + point, check_value(check));
+    if (!check["min"].is_null()) line += ", at least " + full_number_text(check["min"]);
+    if (!check["max"].is_null()) line += ", at most " + full_number_text(check["max"]);
+    return line + "\n";
 }
 
 }  // namespace
@@ -149,14 +163,9 @@ std::string report_table(const json& report) {
             for (const auto& sentence : run["frontier"]["sentences"]) text += sentence.get<std::string>() + "\n";
     }
     if (report.contains("suite")) text += suite_text(report["suite"]);
-    for (const json& check : report["checks"]) {
-        text +=
-            fmt::format("{}  {} of {} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",
-                        check["metric"].get<std::string>(), check["method"].get<std::string>(), check["value"].dump());
-        if (!check["min"].is_null()) text += fmt::format(", at least {:g}", check["min"].get<double>());
-        if (!check["max"].is_null()) text += fmt::format(", at most {:g}", check["max"].get<double>());
-        text += "\n";
-    }
+    text += sweep_table(report);
+    if (!report["checks"].empty()) text += "\n";
+    for (const json& check : report["checks"]) text += check_line(check);
     return text;
 }
 

@@ -327,7 +327,7 @@ TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
     EXPECT_THAT(table, HasSubstr("6 of 10 rounds, ended by max_seconds."));
     EXPECT_THAT(table, HasSubstr("Noise floor, b2f against itself: 0.95x [0.95, 0.95]."));
     EXPECT_THAT(table, HasSubstr("f2bx      unsupported: no <barrier>"));
-    EXPECT_THAT(table, HasSubstr("FAILED  rmse of f2bx is null, at most 1"));
+    EXPECT_THAT(table, HasSubstr("FAILED  rmse of f2bx is not measured, at most 1\n"));
     EXPECT_THAT(table, HasSubstr("do not predict"));
 }
 
