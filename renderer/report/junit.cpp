@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include "renderer/number_text.h"
+#include "renderer/report/check_text.h"
 #include "renderer/report/report.h"
+#include "renderer/report/xml_text.h"
+#include "renderer/spec/sweep.h"
 
 namespace sheer {
 
@@ -8,89 +12,95 @@ using nlohmann::json;
 
 namespace {
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
+/// The test cases of a suite, and how many came out how.
+class Cases {
+  public:
+    void pass(const std::string& name) { add(name, ""); }
+    void skip(const std::string& name, const std::string& why) {
+        ++m_skipped;
+        add(name, fmt::format("<skipped message=\"{}\"/>", xml_text(why)));
     }
-    return result;
-}
+    void fail(const std::string& name, const std::string& why) {
+        ++m_failures;
+        add(name, fmt::format("<failure message=\"{}\"/>", xml_text(why)));
+    }
+    void err(const std::string& name, const std::string& title, const std::string& detail) {
+        ++m_errors;
+        add(name, fmt::format("<error message=\"{}\">{}</error>", xml_text(title), xml_text(detail)));
+    }
 
-/// `problem` is an element inside the case, or "".
-std::string test_case(const std::string& name, const std::string& problem) {
-    return fmt::format("  <testcase classname=\"sheer\" name=\"{}\">{}</testcase>\n", escaped(name), problem);
-}
+    std::string suite(const std::string& name, const std::string& timestamp, const std::string& properties) const {
+        return fmt::format(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
+            "errors=\"{}\" skipped=\"{}\" timestamp=\"{}\">\n{}{}</testsuite>\n",
+            xml_text(name), m_count, m_failures, m_errors, m_skipped, xml_text(timestamp), properties, m_text);
+    }
 
-std::string limits(const json& check) {
-    std::string text;
-    if (!check["min"].is_null()) text += " at least " + check["min"].dump();
-    if (!check["max"].is_null()) text += " at most " + check["max"].dump();
-    return text;
-}
+  private:
+    /// `outcome` is an element inside the case, or "".
+    void add(const std::string& name, const std::string& outcome) {
+        ++m_count;
+        m_text += fmt::format("  <testcase classname=\"sheer\" name=\"{}\">{}</testcase>\n", xml_text(name), outcome);
+    }
+
+    std::string m_text;
+    int m_count = 0, m_failures = 0, m_errors = 0, m_skipped = 0;
+};
 
 std::string note_properties(const json& notes) {
     if (notes.empty()) return "";
     std::string properties;
     for (const json& note : notes) {
         const std::string where = note["where"].is_null() ? "" : note["where"].get<std::string>() + ": ";
-        properties += fmt::format("    <property name=\"note.{}\" value=\"{}\"/>\n", escaped(note["code"]),
-                                  escaped(where + note["text"].get<std::string>()));
+        properties +=
+            fmt::format("    <property name=\"note.{}\" value=\"{}\"/>\n", xml_text(note["code"].get<std::string>()),
+                        xml_text(where + note["text"].get<std::string>()));
     }
     return "  <properties>\n" + properties + "  </properties>\n";
+}
+
+void add_checks(const json& checks, Cases& cases) {
+    for (const json& check : checks) {
+        const std::string name = check_name(check);
+        if (check["passed"].get<bool>()) {
+            cases.pass(name);
+        } else {
+            cases.fail(name, fmt::format("is {}, wanted{}", check_value(check), check_limits(check)));
+        }
+    }
+}
+
+void add_results(const json& runs, Cases& cases) {
+    for (const json& run : runs) {
+        const std::string point = describe_point(run["point"]), place = point.empty() ? "" : " at " + point;
+        for (const json& result : run["results"]) {
+            const std::string name = "renders " + result["label"].get<std::string>() + place;
+            if (result["status"] == "ok") {
+                cases.pass(name);
+            } else if (result["status"] == "unsupported") {
+                cases.skip(name, result["reason"]);
+            } else {
+                cases.fail(name, result["reason"]);
+            }
+        }
+    }
 }
 
 }  // namespace
 
 std::string report_junit(const json& report) {
-    std::string cases;
-    int count = 0, failures = 0, skipped = 0;
-    for (const json& check : report["checks"]) {
-        ++count;
-        std::string problem;
-        if (!check["passed"].get<bool>()) {
-            ++failures;
-            problem = fmt::format("<failure message=\"{}\"/>",
-                                  escaped("is " + check["value"].dump() + ", wanted" + limits(check)));
-        }
-        std::string name = fmt::format("{} of {}{}", check["metric"].get<std::string>(),
-                                       check["method"].get<std::string>(), limits(check));
-        if (!check["at"].empty()) name += " at " + check["at"].dump();
-        cases += test_case(name, problem);
+    Cases cases;
+    add_checks(report.value("checks", json::array()), cases);
+    add_results(report.value("runs", json::array()), cases);
+    if (const json status = report.value("status", json("done")); status != "done") {
+        const json error = report.value("error", json());
+        const std::string title =
+            error.is_object() ? error.value("title", "") : "The comparison is " + status.get<std::string>();
+        cases.err("the comparison ends", title, error.is_object() ? error.value("detail", "") : "");
     }
-    for (const json& run : report["runs"]) {
-        for (const json& result : run["results"]) {
-            ++count;
-            std::string problem;
-            if (result["status"] == "unsupported") {
-                ++skipped;
-                problem = fmt::format("<skipped message=\"{}\"/>", escaped(result["reason"]));
-            } else if (result["status"] != "ok") {
-                ++failures;
-                problem = fmt::format("<failure message=\"{}\"/>", escaped(result["reason"]));
-            }
-            cases += test_case("renders " + result["label"].get<std::string>(), problem);
-        }
-    }
-    return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
-        "errors=\"0\" skipped=\"{}\" timestamp=\"{}\">\n{}{}</testsuite>\n",
-        escaped(report["spec"]["title"]), count, failures, skipped, escaped(report["created_at"]),
-        note_properties(report.value("notes", json::array())), cases);
+    const json spec = report.value("spec", json::object());
+    return cases.suite(spec.value("title", ""), report.value("created_at", ""),
+                       note_properties(report.value("notes", json::array())));
 }
 
 }  // namespace sheer

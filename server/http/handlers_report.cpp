@@ -46,7 +46,10 @@ Answer get_html(Service& service, const Request& request) {
 }
 
 Answer get_junit(Service& service, const Request& request) {
-    return text_response(200, report_junit(finished_report(service, request)), "application/xml");
+    const ReportRecord record = found_report(service, request);
+    if (!is_final(record.status))
+        throw Problem(409, fmt::format("The report is not over: it is {}.", status_text(record.status)));
+    return text_response(200, report_junit(json::parse(report_text(record))), "application/xml");
 }
 
 Answer delete_report(Service& service, const Request& request) {
@@ -119,8 +122,10 @@ std::vector<Route> report_routes(Service& service) {
         route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
               {{200, "The page", "text/html", ""}, not_done},
               [&service](const Request& request) { return get_html(service, request); }),
-        route("GET", "/junit.xml", "getReportJunit", "The checks of a done report as JUnit XML",
-              {{200, "The checks", "application/xml", ""}, not_done},
+        route("GET", "/junit.xml", "getReportJunit",
+              "The checks of a report as JUnit XML; one that failed or was cancelled has an <error>",
+              {{200, "The checks", "application/xml", ""},
+               {409, "The report is not over", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return get_junit(service, request); }),
         route("DELETE", "", "deleteReport", "Cancel a queued or running report, delete one that is over",
               {{200, "It was queued and is cancelled", "application/json", "Report"},

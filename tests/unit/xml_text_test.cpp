@@ -1,0 +1,137 @@
+// JUnit files are XML whatever stands in the texts, by rules of their own: XML 1.0 (fifth edition) and RFC 3629.
+#include "renderer/report/xml_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <regex>
+
+#include "renderer/report/report.h"
+
+namespace sheer::xml_text_test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// The characters of UTF-8, or a failure that says which byte is none.
+std::vector<char32_t> decoded(const std::string& text) {
+    std::vector<char32_t> all;
+    for (std::size_t i = 0; i < text.size();) {
+        const unsigned lead = static_cast<unsigned char>(text[i]);
+        const std::size_t length = lead < 0x80   ? 1
+                                   : lead < 0xC2 ? 0
+                                   : lead < 0xE0 ? 2
+                                   : lead < 0xF0 ? 3
+                                   : lead < 0xF5 ? 4
+                                                 : 0;
+        if (length == 0 || i + length > text.size()) {
+            ADD_FAILURE() << "byte " << i << " is no UTF-8";
+            return all;
+        }
+        char32_t c = length == 1 ? lead : lead & (0x7Fu >> length);
+        for (std::size_t k = 1; k < length; ++k) c = c << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3Fu);
+        all.push_back(c);
+        i += length;
+    }
+    return all;
+}
+
+void expect_xml_characters(const std::string& text) {
+    for (const char32_t c : decoded(text)) {
+        const bool good = c == 9 || c == 10 || c == 13 || (c >= 0x20 && c < 0xD800) || (c >= 0xE000 && c < 0xFFFE) ||
+                          (c >= 0x10000 && c <= 0x10FFFF);
+        EXPECT_TRUE(good) << "U+" << std::hex << static_cast<std::uint32_t>(c);
+    }
+}
+
+/// What is left of a document when its tags are taken away one after the other; "" of one that is well-formed as JUnit
+/// files are: a declaration, elements, attributes in double quotes, and the references that XML itself knows.
+std::string not_well_formed(std::string xml) {
+    const std::string text = R"((?:[^<>&"]|&(?:amp|lt|gt|quot|apos|#[0-9]+);)*)";
+    const std::string attributes = "(?: [a-z]+=\"" + text + "\")*";
+    xml = std::regex_replace(xml, std::regex(R"(^<\?xml version="1\.0" encoding="UTF-8"\?>)"), "");
+    const std::regex inner("<([a-z]+)" + attributes + "(?:/>|>" + text + R"(</\1>))");
+    for (std::string before; before != xml;) {
+        before = xml;
+        xml = std::regex_replace(xml, inner, "");
+    }
+    return std::regex_replace(xml, std::regex("^\n*|\n*$"), "");
+}
+
+TEST(XmlText, EscapesMarkupAndKeepsLines) {
+    EXPECT_EQ(xml_text("a<b> & \"c\" 'd'"), "a&lt;b&gt; &amp; &quot;c&quot; &apos;d&apos;");
+    EXPECT_EQ(xml_text("]]>"), "]]&gt;");
+    EXPECT_EQ(xml_text("one\ttwo\r\nthree"), "one&#9;two&#13;&#10;three");
+    EXPECT_EQ(xml_text("\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80"), "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80");
+    EXPECT_EQ(xml_text(""), "");
+}
+
+TEST(XmlText, ReplacesWhatXmlHasNoPlaceFor) {
+    const std::string gone = "\xEF\xBF\xBD";
+    for (int c = 0; c < 0x20; ++c) {
+        if (c == '\t' || c == '\n' || c == '\r') continue;
+        EXPECT_EQ(xml_text(std::string(1, static_cast<char>(c))), gone) << c;
+    }
+    EXPECT_EQ(xml_text("\xEF\xBF\xBF"), gone) << "U+FFFF";
+    EXPECT_EQ(xml_text("\xEF\xBF\xBE"), gone) << "U+FFFE";
+    EXPECT_EQ(xml_text("\xEF\xBF\xBC"), "\xEF\xBF\xBC") << "U+FFFC may stand there";
+    EXPECT_EQ(xml_text("\xED\xA0\x80"), gone) << "a lone surrogate";
+    EXPECT_EQ(xml_text("a\x80z"), "a" + gone + "z") << "a byte that continues nothing";
+    EXPECT_EQ(xml_text("\xC0\xAF"), gone + gone) << "too long a form";
+    EXPECT_EQ(xml_text("\xF4\x90\x80\x80"), gone) << "beyond U+10FFFF";
+    EXPECT_EQ(xml_text("a\xE2\x82"), "a" + gone + gone) << "cut off";
+}
+
+TEST(XmlText, IsXmlForAnyBytes) {
+    std::mt19937 random(7);
+    for (int round = 0; round < 300; ++round) {
+        std::string bytes(40, '\0');
+        for (char& byte : bytes) byte = static_cast<char>(round % 2 == 0 ? random() % 256 : 0xE0 + random() % 32);
+        const std::string text = xml_text(bytes);
+        expect_xml_characters(text);
+        EXPECT_EQ(not_well_formed("<a b=\"" + text + "\">" + text + "</a>"), "");
+    }
+}
+
+json check_of(const std::string& label, const json& value, bool passed) {
+    return {{"metric", "flip.mean"}, {"method", label}, {"at", {{"/scene/count", 16}}}, {"min", nullptr}, {"max", 0.05},
+            {"value", value},        {"passed", passed}};
+}
+
+TEST(Junit, IsWellFormedWhateverTheTextsAre) {
+    const std::string odd =
+        "a\x01"
+        "b \xEF\xBF\xBF & <x> \"q\" ]]>\x0B \xFF\n--> 'e'";
+    const json result = {{"label", odd}, {"status", "failed"}, {"reason", odd}, {"notes", json::array()}};
+    const json report = {
+        {"status", "done"},
+        {"spec", {{"title", odd}}},
+        {"created_at", "2026-01-01T00:00:00.000Z"},
+        {"notes", {{{"code", "a-b"}, {"text", odd}, {"where", odd}}}},
+        {"checks", {check_of(odd, 0.2, false), check_of(odd, nullptr, false), check_of(odd, 0.01, true)}},
+        {"runs", {{{"point", {{"/scene/count", 16}}}, {"results", {result}}}}}};
+    const std::string xml = report_junit(report);
+    expect_xml_characters(xml);
+    EXPECT_EQ(not_well_formed(xml), "");
+    EXPECT_THAT(xml, HasSubstr("tests=\"4\" failures=\"3\" errors=\"0\" skipped=\"0\""));
+    EXPECT_THAT(xml, HasSubstr("<failure message=\"is 0.2, wanted at most 0.05\"/>"));
+    EXPECT_THAT(xml, HasSubstr("at most 0.05 at count 16\">"));
+}
+
+TEST(Junit, AReportThatIsNotDoneHasAnError) {
+    const json failed = {{"status", "failed"},
+                         {"error", {{"title", "Rendering failed"}, {"detail", "The renderer died (signal 11)."}}},
+                         {"spec", {{"title", "T"}}},
+                         {"created_at", "2026-01-01T00:00:00.000Z"}};
+    const std::string xml = report_junit(failed);
+    EXPECT_EQ(not_well_formed(xml), "");
+    EXPECT_THAT(xml, HasSubstr("<testsuite name=\"T\" tests=\"1\" failures=\"0\" errors=\"1\""));
+    EXPECT_THAT(xml, HasSubstr("<error message=\"Rendering failed\">The renderer died (signal 11).</error>"));
+    EXPECT_THAT(report_junit({{"status", "cancelled"}, {"error", nullptr}}),
+                HasSubstr("<error message=\"The comparison is cancelled\"></error>"));
+}
+
+}  // namespace
+}  // namespace sheer::xml_text_test
