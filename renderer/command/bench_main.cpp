@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdio>
+#include <mutex>
 #include <optional>
 
 #include "renderer/command/command.h"
+#include "renderer/command/signal_watch.h"
 #include "renderer/compare.h"
 #include "renderer/gl/context_kinds.h"
 #include "renderer/report/report.h"
@@ -23,7 +26,7 @@ struct Arguments {
 /// A file that is there whole or not at all. Throws std::runtime_error, naming it, at once if it cannot be written.
 class WholeFile {
   public:
-    explicit WholeFile(std::filesystem::path path) : m_path(std::move(path)), m_partial(m_path) {
+    explicit WholeFile(std::filesystem::path path) : m_partial(std::move(path)) {
         m_partial += ".partial";
         cli::write_text(m_partial, "");
     }
@@ -34,39 +37,101 @@ class WholeFile {
     WholeFile(const WholeFile&) = delete;
     WholeFile& operator=(const WholeFile&) = delete;
 
-    void write(const std::string& text) {
+    /// `path` is its own, or one beside it.
+    void write(const std::string& text, const std::filesystem::path& path) const {
         cli::write_text(m_partial, text);
-        std::filesystem::rename(m_partial, m_path);
+        std::filesystem::rename(m_partial, path);
     }
 
   private:
-    std::filesystem::path m_path, m_partial;
+    std::filesystem::path m_partial;
 };
 
-int run_bench(const Arguments& arguments) {
-    const std::string created_at = utc_now();
-    const Spec spec = cli::read_spec(arguments.source);
-    std::optional<WholeFile> out;
-    if (!arguments.out.empty()) out.emplace(arguments.out);
-    const std::array kinds{gl::Kind{"egl", gl::egl_candidates, true}};
-    const auto context = gl::create_context(arguments.context, kinds);
-    const Device device = describe_device(*context);
-    nlohmann::json report;
-    {
-        cli::ProgressBar bar;
-        NoAssets assets;
-        ReportMaker maker(spec, device, nullptr, created_at);
-        compare(
-            spec, *context, assets, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); },
-            [&](const Run& run) { maker.add(run); });
-        report = maker.finish();
+class Bench {
+  public:
+    explicit Bench(const Arguments& arguments)
+        : m_arguments(arguments), m_created_at(utc_now()), m_spec(cli::read_spec(arguments.source)) {
+        if (!arguments.out.empty()) m_out.emplace(arguments.out);
     }
-    report["provenance"]["rerun"] = cli::rerun_command("sheer-bench", arguments.source, arguments.context) +
-                                    (device.info.name.empty() ? "" : " --device " + device.info.name);
-    if (out) out->write(report.dump(2) + "\n");
-    fmt::print("{}", report_table(report));
-    return report["verdict"] == "failed" ? cli::exit_check_failed : cli::exit_ok;
-}
+
+    int run() {
+        nlohmann::json report;
+        {
+            cli::SignalWatch watch(m_busy, [this](int signal) { end_by(signal); });
+            try {
+                render();
+                const std::lock_guard lock(m_busy);
+                watch.finish();
+                report = m_maker->finish();
+            } catch (const std::exception& error) {
+                const std::lock_guard lock(m_busy);
+                watch.finish();
+                keep_finished("failed", "Rendering failed", error.what());
+                throw;
+            }
+        }
+        write(report, m_arguments.out);
+        return report["verdict"] == "failed" ? cli::exit_check_failed : cli::exit_ok;
+    }
+
+  private:
+    void render() {
+        const std::array kinds{gl::Kind{"egl", gl::egl_candidates, true}};
+        const auto context = gl::create_context(m_arguments.context, kinds);
+        const Device device = describe_device(*context);
+        {
+            const std::lock_guard lock(m_busy);
+            m_maker.emplace(m_spec, device, nullptr, m_created_at);
+            m_rerun = cli::rerun_command("sheer-bench", m_arguments.source, m_arguments.context) +
+                      (device.info.name.empty() ? "" : " --device " + device.info.name);
+        }
+        cli::ProgressLine progress;
+        NoAssets assets;
+        compare(
+            m_spec, *context, assets,
+            [&](double fraction, const std::string& stage) {
+                const std::lock_guard lock(m_busy);
+                progress.show(fraction, stage);
+            },
+            [&](const Run& run) {
+                const std::lock_guard lock(m_busy);
+                m_maker->add(run);
+            });
+    }
+
+    void write(nlohmann::json& report, const std::string& file) {
+        report["provenance"]["rerun"] = m_rerun;
+        if (m_out) m_out->write(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", file);
+        fmt::print("{}", report_table(report));
+    }
+
+    // With m_busy held.
+
+    /// The points that are finished, in a file beside the one for the whole report.
+    void keep_finished(const std::string& status, const std::string& title, const std::string& detail) {
+        if (!m_maker || m_maker->runs() == 0) return;
+        nlohmann::json report = m_maker->finish_early(status, title, detail);
+        m_maker.reset();
+        write(report, m_arguments.out + ".incomplete");
+    }
+
+    void end_by(int signal) {
+        cli::clear_progress_line();
+        const std::string detail = fmt::format("it was ended by {}", cli::signal_name(signal));
+        keep_finished("cancelled", "Interrupted", detail);
+        m_out.reset();
+        std::fflush(stdout);
+        fmt::print(stderr, "sheer-bench: {}\n", detail);
+    }
+
+    const Arguments& m_arguments;
+    const std::string m_created_at;
+    const Spec m_spec;
+    std::optional<WholeFile> m_out;
+    std::mutex m_busy;  ///< guards what follows and m_out while a SignalWatch lives
+    std::optional<ReportMaker> m_maker;
+    std::string m_rerun;
+};
 
 }  // namespace
 
@@ -78,6 +143,6 @@ int main(int argc, char** argv) {
     cli::add_device_options(app, arguments.context);
     app.add_option("--out", arguments.out, "File for the report: report.json of `sheer compare`, without its pictures");
     int exit_code = cli::exit_ok;
-    app.callback([&] { exit_code = cli::guarded([&] { return run_bench(arguments); }); });
+    app.callback([&] { exit_code = cli::guarded([&] { return Bench(arguments).run(); }); });
     return cli::run_command_line(app, argc, argv, exit_code);
 }

@@ -39,12 +39,15 @@ void log_to_stderr(const std::string& program) {
     spdlog::cfg::load_env_levels();
 }
 
-int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
+int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
+                     const std::function<void(const std::string& message)>& on_wrong) {
     app.set_version_flag("--version", fmt::format("sheer {} ({})", version, commit));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exit_ok : exit_bad_spec;
+        if (app.exit(error) == 0) return exit_ok;
+        if (on_wrong) on_wrong(error.what());
+        return exit_bad_spec;
     }
     return exit_code;
 }
@@ -110,19 +113,46 @@ std::string rerun_command(const std::string& command, const Source& source, cons
     return words;
 }
 
-ProgressBar::ProgressBar() : m_begin(std::chrono::steady_clock::now()), m_terminal(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool is_terminal) : m_begin(std::chrono::steady_clock::now()), m_terminal(is_terminal) {}
 
-ProgressBar::~ProgressBar() {
-    if (m_shown) fmt::print(stderr, "\r\033[K");
+ProgressLine::~ProgressLine() {
+    if (m_shown) clear_progress_line();
 }
 
-void ProgressBar::show(double fraction, const std::string& stage) {
-    if (!m_terminal || std::chrono::steady_clock::now() - m_begin < std::chrono::seconds(1)) return;
+bool ProgressLine::stderr_is_terminal() {
+    return isatty(STDERR_FILENO) == 1;
+}
+
+void ProgressLine::show(double fraction, const std::string& stage) {
+    if (m_terminal) {
+        show_bar(fraction, stage);
+    } else {
+        show_line(fraction, stage);
+    }
+}
+
+void ProgressLine::show_bar(double fraction, const std::string& stage) {
+    if (std::chrono::steady_clock::now() - m_begin < std::chrono::seconds(1)) return;
     constexpr int width = 30;
     const int filled = static_cast<int>(fraction * width);
     fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100 * fraction, stage);
     std::fflush(stderr);
     m_shown = true;
+}
+
+/// Stages are told as "count 16: timing round 3 of 10"; the first word after the point says of which kind they are.
+void ProgressLine::show_line(double fraction, const std::string& stage) {
+    const std::size_t colon = stage.rfind(": ");
+    const std::string point = colon == std::string::npos ? "" : stage.substr(0, colon);
+    const std::string what = colon == std::string::npos ? stage : stage.substr(colon + 2);
+    if (point != m_point) m_kinds.clear();
+    m_point = point;
+    if (!m_kinds.insert(what.substr(0, what.find(' '))).second) return;
+    fmt::print(stderr, "[{:3.0f} %] {}\n", 100 * fraction, stage);
+}
+
+void clear_progress_line() {
+    if (ProgressLine::stderr_is_terminal()) fmt::print(stderr, "\r\033[K");
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -25,8 +26,9 @@ inline constexpr int exit_no_server = 4;
 void log_to_stderr(const std::string& program);
 
 /// Adds --version, reads the command line, which runs what it names, and returns `exit_code` as that left it, or
-/// exit_bad_spec for a wrong command line.
-int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code);
+/// exit_bad_spec for a wrong command line, of which `on_wrong` is told.
+int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
+                     const std::function<void(const std::string& message)>& on_wrong = {});
 
 /// What was asked for cannot be done as asked. Exit code 2.
 class UsageError : public std::runtime_error {
@@ -57,20 +59,31 @@ Spec load_spec(const std::string& path);
 /// The command that repeats a comparison: `command` and its source, as words of a shell.
 std::string rerun_command(const std::string& command, const Source& source, const gl::ContextRequest& request);
 
-/// A bar on a terminal's stderr, from the second second on.
-class ProgressBar {
+/// How far a comparison is, on stderr. On a terminal a bar, from the second second on; in a log a line for each stage
+/// of each point, not for each round or method.
+class ProgressLine {
   public:
-    ProgressBar();
-    ~ProgressBar();
-    ProgressBar(const ProgressBar&) = delete;
-    ProgressBar& operator=(const ProgressBar&) = delete;
+    explicit ProgressLine(bool is_terminal = stderr_is_terminal());
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
     void show(double fraction, const std::string& stage);
 
+    static bool stderr_is_terminal();
+
   private:
+    void show_bar(double fraction, const std::string& stage);
+    void show_line(double fraction, const std::string& stage);
+
     std::chrono::steady_clock::time_point m_begin;
     bool m_terminal;
     bool m_shown = false;
+    std::string m_point;
+    std::set<std::string> m_kinds;  ///< of stages that this point has had
 };
+
+/// Removes a bar that another thread may have drawn.
+void clear_progress_line();
 
 /// Throws std::runtime_error naming the file.
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -29,6 +29,15 @@ std::string file_name(const std::string& label) {
     return name;
 }
 
+/// What the names of a run's pictures begin with: its number, where there are several.
+std::string run_prefix(const Spec& spec, std::size_t run) {
+    return spec.points.size() > 1 ? fmt::format("{:03}-", run + 1) : "";
+}
+
+std::string result_name(std::size_t index, const MethodSpec& method) {
+    return fmt::format("{}-{}", index + 1, method.label);
+}
+
 json device_json(const Device& device) {
     json object = gl::to_json(device.info);
     const std::string driver = driver_of(device.info.gl_version);
@@ -69,7 +78,7 @@ class RunWriter {
         json results = json::array();
         for (std::size_t i = 0; i < m_run.results.size(); ++i) {
             const MethodResult& result = m_run.results[i];
-            results.push_back(result_json(result, fmt::format("{}-{}", i + 1, result.method.label)));
+            results.push_back(result_json(result, result_name(i, result.method)));
         }
         json run = {{"point", m_run.point},
                     {"reference", reference},
@@ -279,8 +288,7 @@ ReportMaker::ReportMaker(const Spec& spec, const Device& device, PictureSink* pi
 
 void ReportMaker::add(const Run& run) {
     json& runs = m_report["runs"];
-    const std::string prefix = m_spec.points.size() > 1 ? fmt::format("{:03}-", runs.size() + 1) : "";
-    runs.push_back(RunWriter(m_spec, run, m_software, m_pictures, prefix).write());
+    runs.push_back(RunWriter(m_spec, run, m_software, m_pictures, run_prefix(m_spec, runs.size())).write());
 }
 
 json ReportMaker::finish() {
@@ -290,11 +298,36 @@ json ReportMaker::finish() {
     m_report["verdict"] = verdict_of(m_report["checks"]);
     m_report["notes"] = all_notes(runs);
     m_report["files"] = all_files(runs);
+    m_report["points"] = {{"asked", m_spec.points.size()}, {"done", runs.size()}};
     json& load = m_report["provenance"]["load"];
     load["end"] = load_average();
     if (load["start"].is_null() || load["end"].is_null()) load["reason"] = "/proc/loadavg does not say";
     m_report["finished_at"] = utc_now();
     return std::move(m_report);
+}
+
+json ReportMaker::finish_early(const std::string& status, const std::string& title, const std::string& detail) {
+    const std::size_t asked = m_spec.points.size(), done = runs();
+    json report = finish();
+    report["status"] = status;
+    report["verdict"] = "failed";
+    report["progress"] = static_cast<double>(done) / static_cast<double>(asked);
+    report["error"] = {{"title", title}, {"detail", detail}};
+    const std::string text = fmt::format("Only {} of {} points were rendered: {}", done, asked, detail);
+    report["notes"].insert(report["notes"].begin(), to_json({Note{"incomplete", text, ""}})[0]);
+    return report;
+}
+
+std::vector<std::string> picture_stems(const Spec& spec) {
+    std::vector<std::string> stems;
+    for (std::size_t run = 0; run < spec.points.size(); ++run) {
+        const std::string prefix = run_prefix(spec, run);
+        stems.push_back(prefix + "overdraw");
+        stems.push_back(prefix + file_name("reference-" + spec.reference.id));
+        for (std::size_t i = 0; i < spec.methods.size(); ++i)
+            stems.push_back(prefix + file_name(result_name(i, spec.methods[i])));
+    }
+    return stems;
 }
 
 std::string context_arguments(const Device& device) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "renderer/compare.h"
 #include "renderer/report/picture_sink.h"
@@ -16,6 +17,10 @@ class ReportMaker {
     void add(const Run& run);
     /// Once, after the last run.
     nlohmann::json finish();
+    /// Instead, once, where not every point was rendered: the report of those that were. Its verdict is "failed",
+    /// whatever its checks say, lest what was not looked at passes. `status` is "failed" or "cancelled".
+    nlohmann::json finish_early(const std::string& status, const std::string& title, const std::string& detail);
+    std::size_t runs() const { return m_report["runs"].size(); }
 
   private:
     const Spec& m_spec;
@@ -27,9 +32,14 @@ class ReportMaker {
 /// What the command line needs to render on this device again, with a space before it; "" where it has no name.
 std::string context_arguments(const Device& device);
 
+/// What the names of the pictures begin with that the report of this spec will have, up to the first ".".
+std::vector<std::string> picture_stems(const Spec& spec);
+
 /// A table for the terminal: a line a method.
 std::string report_table(const nlohmann::json& report);
-/// JUnit XML: a test case for each check and one for the rendering of each method.
+/// JUnit XML: a test case for each check and one for the rendering of each method. A report that is not done has one
+/// with an <error>; it need not have more than `status`, `error`, and the title in its spec. The text is well-formed
+/// whatever stands in titles, labels and reasons.
 std::string report_junit(const nlohmann::json& report);
 
 /// Now in UTC, RFC 3339 with milliseconds.

@@ -7,6 +7,8 @@ namespace sheer::cli {
 
 /// Each adds its subcommand to `app`; when it is chosen it runs and stores the exit code.
 void add_compare(CLI::App& app, int& exit_code);
+/// For a command line that could not be read: writes the JUnit file that it asks for.
+void note_wrong_command_line(int argc, const char* const* argv, const std::string& message);
 void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, devices
 void add_diff(CLI::App& app, int& exit_code);
 void add_docs(CLI::App& app, int& exit_code);     ///< for ./dev docs; not shown in the help

@@ -1,18 +1,26 @@
+#include "renderer/compare.h"
+
 #include <fmt/format.h>
 
+#include <mutex>
 #include <optional>
 
 #include "renderer/assets/file_assets.h"
-#include "renderer/compare.h"
+#include "renderer/command/signal_watch.h"
 #include "renderer/files/blob_sink.h"
 #include "renderer/files/html.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
+#include "server/cli/junit_file.h"
+#include "server/cli/output_folder.h"
 #include "server/cli/rendering.h"
 
 namespace sheer::cli {
 
 namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
 
 struct CompareArguments {
     Source source;
@@ -20,48 +28,148 @@ struct CompareArguments {
     gl::ContextRequest context;
 };
 
-void write_report(const nlohmann::json& report, const std::filesystem::path& folder) {
-    const auto read_picture = [&](const nlohmann::json& image) {
-        return read_text(folder / image.at("url").get<std::string>());
-    };
+void write_report(const json& report, const fs::path& folder) {
+    const auto read_picture = [&](const json& image) { return read_text(folder / image.at("url").get<std::string>()); };
     write_text(folder / "report.html", report_html(report, read_picture));
-    write_text(folder / "report.json", report.dump(2) + "\n");
+    write_text(folder / "report.json", report.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-int run_compare(const CompareArguments& options) {
-    const std::string created_at = utc_now();
-    const Spec spec = read_spec(options.source);
-    std::optional<ReportFolder> folder;
-    if (!options.out.empty()) folder.emplace(options.out);
-    nlohmann::json report;
-    {
-        ProgressBar bar;
-        const auto context = gl::create_context(options.context);
-        FileAssets assets = assets_in_folder(std::filesystem::path(options.source.spec).parent_path());
-        std::optional<FolderSink> sink;
-        if (folder) sink.emplace(folder->partial());
+/// A comparison from its spec to what is left of it. However it ends, what is finished is written.
+class Comparison {
+  public:
+    explicit Comparison(const CompareArguments& options)
+        : m_options(options), m_created_at(utc_now()), m_junit(options.junit, options.source.spec, options.out) {}
+
+    int run() {
+        {
+            SignalWatch watch(m_busy, [this](int signal) { end_by(signal); });
+            try {
+                prepare();
+                render();
+                const std::lock_guard lock(m_busy);
+                finish();
+                watch.finish();
+            } catch (const std::exception& error) {
+                const std::lock_guard lock(m_busy);
+                watch.finish();
+                fail(error);
+                throw;
+            }
+        }
+        fmt::print("{}", report_table(m_report));
+        if (m_place.empty()) {
+            fmt::print("\nAdd --out DIR to keep the pictures and the report.\n");
+        } else {
+            fmt::print("\nReport: {}\n", page().string());
+        }
+        return m_report["verdict"] == "failed" ? exit_check_failed : exit_ok;
+    }
+
+  private:
+    void prepare() {
+        Spec spec = read_spec(m_options.source);
+        const std::lock_guard lock(m_busy);
+        m_spec = std::move(spec);
+        if (!m_options.out.empty())
+            m_folder.emplace(m_options.out, OutputNames{"report.json", {"report.html"}, picture_stems(*m_spec)});
+    }
+
+    void render() {
+        ProgressLine progress;
+        const auto context = gl::create_context(m_options.context);
+        FileAssets assets = assets_in_folder(fs::path(m_options.source.spec).parent_path());
         const Device device = describe_device(*context);
-        ReportMaker maker(spec, device, sink ? &*sink : nullptr, created_at);
+        {
+            const std::lock_guard lock(m_busy);
+            if (m_folder) m_sink.emplace(m_folder->partial());
+            m_maker.emplace(*m_spec, device, m_sink ? &*m_sink : nullptr, m_created_at);
+            m_rerun = rerun_command("sheer compare", m_options.source, m_options.context) + context_arguments(device);
+        }
         compare(
-            spec, *context, assets, [&](double fraction, const std::string& stage) { bar.show(fraction, stage); },
-            [&](const Run& run) { maker.add(run); });
-        report = maker.finish();
-        report["provenance"]["rerun"] =
-            rerun_command("sheer compare", options.source, options.context) + context_arguments(device);
-        if (folder) {
-            write_report(report, folder->partial());
-            folder->commit();
+            *m_spec, *context, assets,
+            [&](double fraction, const std::string& stage) {
+                const std::lock_guard lock(m_busy);
+                progress.show(fraction, stage);
+            },
+            [&](const Run& run) {
+                const std::lock_guard lock(m_busy);
+                m_maker->add(run);
+            });
+    }
+
+    // The following are called with m_busy held.
+
+    void finish() {
+        json report = m_maker->finish();
+        m_maker.reset();
+        keep(std::move(report), true);
+        m_junit.write(m_report);
+    }
+
+    void keep(json report, bool complete) {
+        report["provenance"]["rerun"] = m_rerun;
+        if (!m_options.source.spec.empty()) report["provenance"]["spec"] = fs::absolute(m_options.source.spec).string();
+        m_report = std::move(report);
+        if (!m_folder) return;
+        write_report(m_report, m_folder->partial());
+        m_place = fs::absolute(m_folder->commit(complete)).lexically_normal();
+    }
+
+    /// Writes what is finished as a report that says that it is not whole. Returns how many points it has.
+    std::size_t keep_finished(const std::string& status, const std::string& title, const std::string& detail) {
+        const std::size_t points = m_maker ? m_maker->runs() : 0;
+        if (points == 0) {
+            m_junit.write_error(title, detail);
+            if (m_folder) m_folder->discard();
+            return 0;
+        }
+        json report = m_maker->finish_early(status, title, detail);
+        m_maker.reset();
+        m_junit.write(report);
+        keep(std::move(report), false);
+        fmt::print("{}", report_table(m_report));
+        return points;
+    }
+
+    std::string what_is_kept(std::size_t points) const {
+        if (points == 0) return "no point was finished";
+        std::string text = fmt::format("{} of {} points were finished", points, m_spec->points.size());
+        return m_place.empty() ? text : fmt::format("{}: {}", text, page().string());
+    }
+
+    void fail(const std::exception& error) {
+        const bool is_callers = dynamic_cast<const SpecError*>(&error) || dynamic_cast<const UsageError*>(&error);
+        try {
+            const std::size_t points = keep_finished(
+                "failed", is_callers ? "The comparison cannot be made" : "Rendering failed", error.what());
+            if (points > 0) fmt::print(stderr, "sheer: {}\n", what_is_kept(points));
+        } catch (const std::exception& more) {
+            fmt::print(stderr, "sheer: what was finished cannot be kept: {}\n", more.what());
         }
     }
-    fmt::print("{}", report_table(report));
-    if (!options.junit.empty()) write_text(options.junit, report_junit(report));
-    if (folder) {
-        fmt::print("\nReport: {}\n", (std::filesystem::absolute(options.out) / "report.html").string());
-    } else {
-        fmt::print("\nAdd --out DIR to keep the pictures and the report.\n");
+
+    void end_by(int signal) {
+        clear_progress_line();
+        const std::string detail = fmt::format("it was ended by {}", signal_name(signal));
+        const std::size_t points = keep_finished("cancelled", "Interrupted", detail);
+        std::fflush(stdout);
+        fmt::print(stderr, "sheer: {}; {}\n", detail, what_is_kept(points));
     }
-    return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
-}
+
+    fs::path page() const { return m_place / "report.html"; }
+
+    const CompareArguments& m_options;
+    const std::string m_created_at;
+    const JunitFile m_junit;
+    std::mutex m_busy;  ///< guards all that follows while a SignalWatch lives
+    std::optional<Spec> m_spec;
+    std::optional<OutputFolder> m_folder;
+    std::optional<FolderSink> m_sink;
+    std::optional<ReportMaker> m_maker;
+    std::string m_rerun;
+    json m_report;
+    fs::path m_place;  ///< the folder that the report is in; empty without --out
+};
 
 }  // namespace
 
@@ -72,7 +180,16 @@ void add_compare(CLI::App& app, int& exit_code) {
     command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
     command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
     add_context_options(*command, options->context);
-    command->callback([options, &exit_code] { exit_code = guarded([&] { return run_compare(*options); }); });
+    command->callback([options, &exit_code] { exit_code = guarded([&] { return Comparison(*options).run(); }); });
+}
+
+void note_wrong_command_line(int argc, const char* const* argv, const std::string& message) {
+    if (argc < 2 || std::string_view(argv[1]) != "compare") return;
+    try {
+        JunitFile(junit_argument(argc, argv), "", "").write_error("The command line is wrong", message);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "sheer: {}\n", error.what());
+    }
 }
 
 }  // namespace sheer::cli

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "renderer/command/signal_watch.h"
+#include "renderer/files/blob_sink.h"
 #include "server/cli/commands.h"
-#include "server/cli/rendering.h"
+#include "server/cli/output_folder.h"
 
 namespace sheer::cli {
 
@@ -54,19 +56,39 @@ json diff(const ReportFile& a, const ReportFile& b, const DiffOptions& options) 
     }
 }
 
+/// Holds a lock while it writes.
+class LockedSink : public BlobSink {
+  public:
+    LockedSink(BlobSink& sink, std::mutex& busy) : m_sink(sink), m_busy(busy) {}
+    std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
+                    const std::string& media_type) override {
+        const std::lock_guard lock(m_busy);
+        return m_sink.put(sha256, bytes, name, media_type);
+    }
+
+  private:
+    BlobSink& m_sink;
+    std::mutex& m_busy;
+};
+
+/// The diff, with diff.json and the FLIP maps in a folder.
+json diff_into(const std::string& out, const ReportFile& a, const ReportFile& b) {
+    OutputFolder folder(out, {"diff.json", {}, {}});
+    std::mutex busy;
+    SignalWatch watch(busy, [&folder](int) { folder.discard(); });
+    FolderSink maps(folder.partial());
+    LockedSink sink(maps, busy);
+    json result = diff(a, b, {.pictures = &sink});
+    const std::lock_guard lock(busy);
+    write_text(folder.partial() / "diff.json", result.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+    folder.commit();
+    watch.finish();
+    return result;
+}
+
 int run_diff(const DiffArguments& options) {
     const ReportFile a(options.a), b(options.b);
-    std::optional<ReportFolder> folder;
-    if (!options.out.empty()) folder.emplace(options.out, "diff.json");
-    json result;
-    if (folder) {
-        FolderSink sink(folder->partial());
-        result = diff(a, b, {.pictures = &sink});
-        write_text(folder->partial() / "diff.json", result.dump(2) + "\n");
-        folder->commit();
-    } else {
-        result = diff(a, b, {});
-    }
+    const json result = options.out.empty() ? diff(a, b, {}) : diff_into(options.out, a, b);
     fmt::print("{}", options.as_json ? result.dump(2) + "\n" : diff_table(result));
     return is_worse(result) ? exit_check_failed : exit_ok;
 }

@@ -26,7 +26,7 @@ struct RenderArguments {
 };
 
 void say(const json& line) {
-    fmt::print("{}\n", line.dump());
+    fmt::print("{}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
     std::fflush(stdout);
 }
 
@@ -60,7 +60,8 @@ int run_render(const RenderArguments& options) {
             },
             [&](const Run& run) { maker.add(run); });
         const json report = maker.finish();
-        write_text(std::filesystem::path(options.out) / "report.json", report.dump());
+        write_text(std::filesystem::path(options.out) / "report.json",
+                   report.dump(-1, ' ', false, json::error_handler_t::replace));
         return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
     } catch (const std::exception& error) {
         const Failure failure = describe_failure(error);

@@ -104,8 +104,13 @@ test("what cannot be compared is told and leaves nothing", () => {
   rmSync(join(at("b"), "images", "blue.png"));
   refused([at("a"), at("b")], /cannot read .*blue\.png/);
   assert.equal(sheer("diff", at("a")).status, 2);
-  assert.equal(sheer("diff", at("a"), at("a"), "--out", at("")).status, 2, "a folder of other files is left alone");
-  assert.ok(existsSync(at("text")));
+  writeFileSync(at("diff.json"), "mine");
+  assert.equal(sheer("diff", at("a"), at("a"), "--out", at("")).status, 2, "a file that is not Sheer's is left alone");
+  assert.equal(readFileSync(at("diff.json"), "utf8"), "mine");
+  const report = sheer("diff", at("a"), at("a"), "--out", at("a"));
+  assert.equal(report.status, 2, "and so is a report");
+  assert.match(report.stderr, /holds a report\.json of Sheer's/);
+  assert.ok(existsSync(at("a/report.json")));
 });
 
 test("over HTTP", async () => {

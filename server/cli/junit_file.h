@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace sheer::cli {
+
+/// The file of --junit. It never tells of an earlier run: from the start on it holds an <error> that says that the
+/// comparison did not end, which is what stays there if the process is killed.
+class JunitFile {
+  public:
+    /// "" for none. Makes the folder of the file only where that lies in `out`, the folder of the report, which may not
+    /// be there yet. Throws UsageError, with nothing touched, if the file cannot be written, or is the spec or a file
+    /// of the report.
+    JunitFile(const std::string& file, const std::filesystem::path& spec, const std::filesystem::path& out);
+
+    /// See report_junit(). Throws std::runtime_error.
+    void write(const nlohmann::json& report) const;
+    /// One case, with an <error>.
+    void write_error(const std::string& title, const std::string& detail) const;
+
+  private:
+    std::filesystem::path m_file;
+};
+
+/// The word after --junit of a command line that cannot be read as a whole; "" if there is none.
+std::string junit_argument(int argc, const char* const* argv);
+
+}  // namespace sheer::cli
