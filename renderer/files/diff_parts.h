@@ -13,7 +13,8 @@ struct Difference {
     bool is_in_both = true;  ///< else only one of the two has it
 };
 
-/// Fields of spec, device and provenance that differ; methods are matched by label.
+/// Fields of spec, device and provenance that differ, and files that the reports drew from, each as a whole entry of
+/// `files`; methods are matched by label.
 std::vector<Difference> report_differences(const nlohmann::json& a, const nlohmann::json& b);
 
 /// Why these are no reports of one spec; empty if they are. A field that only one spec has, such as a parameter that is

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "renderer/files/diff_parts.h"
@@ -62,6 +63,30 @@ void compare_methods(const json& a, const json& b, std::vector<Difference>& foun
         if (!labelled(a, b[i]["label"])) found.push_back({fmt::format("/spec/methods/{}", i), nullptr, b[i], false});
 }
 
+bool is_in(const json& list, const json& value) {
+    return std::ranges::find(list, value) != list.end();
+}
+
+/// Files are matched by their names and the fields that lead to them. Reports made before they were named have none.
+void compare_files(const json& a, const json& b, std::vector<Difference>& found) {
+    if (!a.is_array() || !b.is_array()) return;
+    const auto is_same_place = [](const json& one, const json& other) {
+        return std::ranges::all_of(std::array{"pointer", "name", "of"},
+                                   [&](const char* key) { return member(one, key) == member(other, key); });
+    };
+    json left = json::array();
+    for (const json& file : b)
+        if (!is_in(a, file)) left.push_back(file);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (is_in(b, a[i])) continue;
+        const auto now = std::ranges::find_if(left, [&](const json& file) { return is_same_place(file, a[i]); });
+        found.push_back({fmt::format("/files/{}", i), a[i], now == left.end() ? json() : *now, now != left.end()});
+        if (now != left.end()) left.erase(now);
+    }
+    for (const json& file : left)
+        found.push_back({fmt::format("/files/{}", std::ranges::find(b, file) - b.begin()), nullptr, file, false});
+}
+
 std::vector<std::string> labels(const json& report) {
     std::vector<std::string> all;
     for (const json& method : report.at("spec").at("methods")) all.push_back(method.at("label"));
@@ -90,11 +115,13 @@ std::vector<Difference> report_differences(const json& a, const json& b) {
     spec_a.erase("methods");
     spec_b.erase("methods");
     compare_values("/spec", spec_a, spec_b, found);
+    compare_files(member(a, "files"), member(b, "files"), found);
     compare_values("/device", member(a, "device"), member(b, "device"), found);
     json provenance_a = member(a, "provenance"), provenance_b = member(b, "provenance");
-    // How to repeat a report is no part of where it comes from.
+    // How to repeat a report is no part of where it comes from, nor is where its spec lay.
     for (json* provenance : {&provenance_a, &provenance_b})
-        if (provenance->is_object()) provenance->erase("rerun");
+        for (const char* key : {"rerun", "spec"})
+            if (provenance->is_object()) provenance->erase(key);
     compare_values("/provenance", provenance_a, provenance_b, found);
     return found;
 }

@@ -72,6 +72,21 @@ std::string side_line(const char* name, const json& side) {
                        text(side["version"]), text(side["commit"]), text(side["created_at"]), text(side["renderer"]));
 }
 
+bool is_file(const json& value) {
+    return value.is_object() && value.contains("name") && value.contains("sha256") && value.contains("bytes");
+}
+
+std::string difference_line(const json& one) {
+    const json &a = one["a"], &b = one["b"];
+    if (!is_file(a) && !is_file(b)) return fmt::format("{}: {} | {}\n", text(one["pointer"]), text(a), text(b));
+    const auto content = [](const json& file) {
+        return is_file(file) ? fmt::format("{} bytes, SHA-256 {}", text(file["bytes"]), text(file["sha256"])) : "-";
+    };
+    const json& either = is_file(a) ? a : b;
+    return fmt::format("The file {} ({}): {} | {}\n", text(either["name"]), text(either["pointer"]), content(a),
+                       content(b));
+}
+
 std::string only_in_text(const char* name, const json& only) {
     std::string lines;
     for (const json& label : only["methods"]) lines += fmt::format("Only in {}: the method {}.\n", name, text(label));
@@ -91,8 +106,7 @@ std::string conclusion(const json& diff) {
 
 std::string diff_table(const json& diff) {
     std::string lines = side_line("A", diff["a"]) + side_line("B", diff["b"]);
-    for (const json& one : diff["differences"])
-        lines += fmt::format("{}: {} | {}\n", text(one["pointer"]), text(one["a"]), text(one["b"]));
+    for (const json& one : diff["differences"]) lines += difference_line(one);
     lines += only_in_text("A", diff["only_in"]["a"]) + only_in_text("B", diff["only_in"]["b"]);
     lines += diff["same_device"].get<bool>()
                  ? "Same device: B is faster or slower where its time and its ratio to the baseline's both say so.\n"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <map>
 
 #include "renderer/assets/file_assets.h"
@@ -51,15 +52,18 @@ class Subject {
         if (document.is_discarded()) throw UsageError(file().string() + " is not JSON");
         m_is_report = document.is_object() && document.contains("runs") && document.contains("spec");
         m_spec = parse_spec(m_is_report ? document["spec"] : document);
-        if (m_is_report) m_runs = document["runs"];
+        if (m_is_report) {
+            m_runs = document["runs"];
+            m_spec_file = document.value("/provenance/spec"_json_pointer, "");
+        }
         check_pixel();
     }
 
-    json take_apart() {
+    json report() {
         const auto context = gl::create_context(m_options.context);
         const Spec spec = spec_at(m_spec, point());
         FileAssets assets = make_assets();
-        const PixelStack stack = take_pixel_apart(spec, *context, assets, m_options.x, m_options.y);
+        const PixelStack stack = take_apart(spec, *context, assets);
         if (m_is_report) {
             const auto read = [this](const json& image) { return read_picture(image); };
             return pixel_report(stack, m_options.x, m_options.y, m_runs.at(index()), read);
@@ -76,9 +80,12 @@ class Subject {
         return std::filesystem::is_directory(path) ? path / "report.json" : path;
     }
 
+    /// Of a report it is the folder that its spec was in, where that is still there.
     std::filesystem::path base() const {
-        if (m_options.base.empty()) return file().parent_path();
-        return m_options.base;
+        if (!m_options.base.empty()) return m_options.base;
+        const std::filesystem::path of_spec = std::filesystem::path(m_spec_file).parent_path();
+        std::error_code ignored;
+        return !of_spec.empty() && std::filesystem::is_directory(of_spec, ignored) ? of_spec : file().parent_path();
     }
 
     std::size_t index() const { return static_cast<std::size_t>(m_options.run); }
@@ -93,6 +100,37 @@ class Subject {
             throw UsageError(fmt::format("--x must be in 0 to {}", image.width_px - 1));
         if (m_options.y < 0 || m_options.y >= image.height_px)
             throw UsageError(fmt::format("--y must be in 0 to {}", image.height_px - 1));
+    }
+
+    PixelStack take_apart(const Spec& spec, gl::Context& context, FileAssets& assets) const {
+        try {
+            PixelStack stack = take_pixel_apart(spec, context, assets, m_options.x, m_options.y);
+            check_unchanged(spec, assets);
+            return stack;
+        } catch (const SpecError&) {
+            // A file that cannot be used any more is most likely another one.
+            check_unchanged(spec, assets);
+            throw;
+        }
+    }
+
+    /// Throws UsageError for a file that is not what the report's pictures were made from. Reports made before files
+    /// were named have none.
+    void check_unchanged(const Spec& spec, const FileAssets& assets) const {
+        if (!m_is_report || !m_runs.at(index()).contains("files")) return;
+        const json& then = m_runs.at(index())["files"];
+        for (const json& now : to_json(source_files(spec.scene, assets))) {
+            const auto is_of_name = [&](const json& file) {
+                return file["name"] == now["name"] && file["of"] == now["of"];
+            };
+            const auto before = std::ranges::find_if(then, is_of_name);
+            if (before != then.end() && (*before)["sha256"] != now["sha256"])
+                throw UsageError(fmt::format(
+                    "{} has changed since the report was made: its SHA-256 was {} and is {}, so its fragments are not "
+                    "those of the report's pictures",
+                    now["name"].get<std::string>(), (*before)["sha256"].get<std::string>(),
+                    now["sha256"].get<std::string>()));
+        }
     }
 
     FileAssets make_assets() const {
@@ -118,11 +156,12 @@ class Subject {
     const PixelArguments& m_options;
     bool m_is_report = false;
     Spec m_spec;
+    std::string m_spec_file;  ///< the path of the report's spec; "" if it does not say
     json m_runs;
 };
 
 int print_pixel(const PixelArguments& options) {
-    fmt::print("{}", pixel_table(Subject(options).take_apart()));
+    fmt::print("{}", pixel_table(Subject(options).report()));
     return exit_ok;
 }
 
@@ -131,7 +170,7 @@ int print_json(const PixelArguments& options) {
     json line;
     int exit_code = exit_ok;
     try {
-        line = Subject(options).take_apart();
+        line = Subject(options).report();
     } catch (const UsageError& error) {
         line = {{"error", {{"kind", "usage"}, {"detail", error.what()}, {"errors", json::array()}}}};
         exit_code = exit_bad_spec;
@@ -159,7 +198,7 @@ void add_pixel(CLI::App& app, int& exit_code) {
     command->add_option("--run", options->run, "Which point of the sweep, from 0")->capture_default_str();
     command->add_flag("--json", options->as_json, "As GET /reports/{id}/pixel answers, on one line");
     command->add_option("--base", options->base,
-                        "Folder that paths in the spec start from; the file's own if not given");
+                        "Folder that paths in the spec start from; if not given, the one that the spec was in");
     command->add_option("--data", options->data, "The service's folder, which then has the pictures and uploaded files")
         ->group("");
     add_context_options(*command, options->context);

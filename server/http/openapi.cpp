@@ -123,6 +123,13 @@ json report_schema() {
     for (const char* name : {"device", "color_space", "provenance"}) properties[name] = {{"type", "object"}};
     for (const char* name : {"runs", "checks"}) properties[name] = {{"type", "array"}, {"items", {{"type", "object"}}}};
     properties["verdict"] = {{"enum", {"passed", "failed", "none"}}};
+    json file = object_schema({{"pointer", text_schema()},
+                               {"name", text_schema()},
+                               {"of", nullable("string")},
+                               {"sha256", text_schema()},
+                               {"bytes", {{"type", "integer"}}}},
+                              {"pointer", "name", "of", "sha256", "bytes"});
+    properties["files"] = {{"type", "array"}, {"items", file}, {"description", "every file that the report drew from"}};
     return object_schema(properties, {"id", "status", "progress", "error", "created_at", "spec", "spec_sha256"});
 }
 

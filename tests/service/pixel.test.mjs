@@ -1,9 +1,12 @@
 // One pixel taken apart: its fragments, what the methods made of them, and what is refused.
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { spawnSync } from "node:child_process";
+import { glb, three_squares } from "./glb.mjs";
 import { assert_problem, lasting, QUICK, until, with_service } from "./service.mjs";
 
 const layer = (depth, color, alpha, opaque = false) => ({ rect: [0, 0, 1, 0.5], depth, color, alpha, opaque });
@@ -144,4 +147,71 @@ test("sheer pixel takes apart a spec and a folder alike", () => with_service({},
   assert.equal(outside.status, 2);
   assert.match(JSON.parse(outside.stdout).error.detail, /--x must be in 0 to 15/);
   assert.equal(sheer("pixel", join(service.folder, "none.json"), "--x=0", "--y=0").status, 2);
+}));
+
+/** A model in three files, a spec beside its folder, and a report of it in a folder elsewhere. */
+function model_report(folder) {
+  const { json, binary } = three_squares();
+  mkdirSync(join(folder, "specs", "models"), { recursive: true });
+  writeFileSync(join(folder, "specs", "models", "squares.gltf"),
+                JSON.stringify({ ...json, buffers: [{ ...json.buffers[0], uri: "squares.bin" }] }));
+  writeFileSync(join(folder, "specs", "models", "squares.bin"), binary);
+  const spec = { ...QUICK, scene: { type: "gltf", model: "models/squares.gltf", light: "none" } };
+  writeFileSync(join(folder, "specs", "spec.json"), JSON.stringify(spec));
+  const sheer = (...args) => spawnSync(process.env.SHEER, args, { encoding: "utf8", cwd: folder });
+  const made = sheer("compare", "specs/spec.json", "--out", "out");
+  assert.equal(made.status, 0, made.stderr);
+  return { sheer, binary, report: JSON.parse(readFileSync(join(folder, "out", "report.json"), "utf8")) };
+}
+
+test("fragments of a file that has changed are not shown beside the old pictures", () => {
+  const folder = mkdtempSync(join(tmpdir(), "sheer-pixel-"));
+  try {
+    const { sheer, binary, report } = model_report(folder);
+    const sha256 = (bytes) => createHash("sha256").update(bytes).digest("hex");
+    assert.deepEqual(report.files.map(({ pointer, name, of, sha256, bytes }) => [pointer, name, of, sha256, bytes]), [
+      ["/scene/model", "models/squares.gltf", null, sha256(readFileSync(join(folder, "specs/models/squares.gltf"))),
+       readFileSync(join(folder, "specs/models/squares.gltf")).length],
+      ["/scene/model", "models/squares.bin", "models/squares.gltf", sha256(binary), binary.length]]);
+    const pixel = (...more) => sheer("pixel", "out", "--x=8", "--y=8", ...more);
+    const same = pixel();
+    assert.equal(same.status, 0, `the spec's folder is known: ${same.stderr}`);
+    assert.equal(sheer("compare", "specs/spec.json", "--out", "before").status, 0);
+
+    const other = Buffer.from(binary);
+    other.writeFloatLE(-0.5, 0);
+    writeFileSync(join(folder, "specs/models/squares.bin"), other);
+    const changed = pixel();
+    assert.equal(changed.status, 2, changed.stdout);
+    assert.match(changed.stderr, /^sheer: models\/squares\.bin has changed since the report was made/);
+    assert.equal(changed.stdout, "");
+    assert.match(JSON.parse(pixel("--json").stdout).error.detail, /squares\.bin has changed/);
+
+    assert.equal(sheer("compare", "specs/spec.json", "--out", "after").status, 0);
+    const diff = sheer("diff", "before", "after");
+    assert.match(diff.stdout, new RegExp(`^The file models/squares\\.bin \\(/scene/model\\): .*${sha256(binary)} \\| .*${sha256(other)}$`, "m"));
+
+    // One that cannot even be read any more is told as changed, too.
+    writeFileSync(join(folder, "specs/models/squares.gltf"), "{}");
+    assert.match(pixel().stderr, /models\/squares\.gltf has changed/);
+    rmSync(join(folder, "specs/models/squares.gltf"));
+    const gone = pixel();
+    assert.equal(gone.status, 2);
+    assert.ok(gone.stderr.includes(`looked for at ${join(folder, "specs/models/squares.gltf")}`), gone.stderr);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
+test("over HTTP a report names uploaded files by their hashes, and no path of the host", () => with_service({}, async (service) => {
+  const upload = await fetch(`${service.api}/assets`, { method: "POST", body: glb(three_squares()),
+                                                        headers: { "Content-Type": "model/gltf-binary" } });
+  const { sha256, bytes } = await upload.json();
+  const id = await done(service, { ...QUICK, scene: { type: "gltf", model: sha256, light: "none" } });
+  const report = await service.report(id);
+  assert.deepEqual(report.files, [{ pointer: "/scene/model", name: sha256, of: null, sha256, bytes }]);
+  assert.equal((await fetch(`${service.api}/reports/${id}/pixel?x=8&y=8`)).status, 200);
+  assert.equal((await fetch(`${service.api}/assets/${sha256}`, { method: "DELETE" })).status, 204);
+  const gone = await assert_problem(await fetch(`${service.api}/reports/${id}/pixel?x=8&y=8`), 409);
+  assert.ok(!gone.detail.includes(service.folder) && !JSON.stringify(report).includes(service.folder), gone.detail);
 }));

@@ -226,6 +226,28 @@ TEST_F(ReportDiff, DifferencesThatLeaveThePicturesAloneAreListed) {
     EXPECT_EQ(diff()["b"]["commit"], "def");
 }
 
+TEST_F(ReportDiff, AFileThatChangedIsNamed) {
+    const auto file = [](const std::string& name, const std::string& sha256, int bytes) -> json {
+        return {{"pointer", "/scene/model"}, {"name", name}, {"of", nullptr}, {"sha256", sha256}, {"bytes", bytes}};
+    };
+    a["files"] = {file("same.bin", "00", 1), file("glass.gltf", "aa", 10), file("old.bin", "cc", 3)};
+    EXPECT_TRUE(diff()["differences"].empty()) << "older reports do not say what they drew from";
+    // In another order, since it is by their names that they are the same.
+    b["files"] = {file("glass.gltf", "bb", 12), file("same.bin", "00", 1), file("new.bin", "dd", 4)};
+    const json changed = diff();
+    EXPECT_EQ(changed["differences"],
+              json::array({{{"pointer", "/files/1"}, {"a", a["files"][1]}, {"b", b["files"][0]}},
+                           {{"pointer", "/files/2"}, {"a", a["files"][2]}, {"b", nullptr}},
+                           {{"pointer", "/files/2"}, {"a", nullptr}, {"b", b["files"][2]}}}));
+    const std::string table = diff_table(changed);
+    EXPECT_THAT(table, HasSubstr("The file glass.gltf (/scene/model): 10 bytes, SHA-256 aa | 12 bytes, SHA-256 bb\n"));
+    EXPECT_THAT(table, HasSubstr("The file new.bin (/scene/model): - | 4 bytes, SHA-256 dd\n"));
+    // Where the spec lies is no difference.
+    a["provenance"]["spec"] = "/one/spec.json";
+    b["provenance"]["spec"] = "/two/spec.json";
+    EXPECT_EQ(diff()["differences"].size(), 3u);
+}
+
 TEST_F(ReportDiff, MethodsOfOnlyOneAreListed) {
     b["spec"]["methods"].erase(1);
     b["runs"][0]["results"].erase(1);
