@@ -322,7 +322,7 @@ TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
     const std::string table = report_table(report());
     EXPECT_THAT(table, HasSubstr("b2f           35.00"));
     EXPECT_THAT(table, HasSubstr("2.00x [2.00, 2.00]        faster"));
-    EXPECT_THAT(table, HasSubstr("F2BD <1>         80      16      16           -"));
+    EXPECT_THAT(table, HasSubstr("F2BD <1>         80      16        8      16           -"));
     EXPECT_LT(table.find("submitted"), table.find("median ms")) << "counts first on a software rasteriser";
     EXPECT_THAT(table, HasSubstr("6 of 10 rounds, ended by max_seconds."));
     EXPECT_THAT(table, HasSubstr("Noise floor, b2f against itself: 0.95x [0.95, 0.95]."));
