@@ -8,6 +8,8 @@
 
 #include "renderer/frame/loop_check.h"
 #include "renderer/frame/target.h"
+#include "renderer/frame/texel.h"
+#include "renderer/methods/method.h"
 
 namespace sheer {
 
@@ -96,6 +98,69 @@ class Autopsy {
     int m_x, m_y;
 };
 
+/// Draws frames of methods of which only one pixel is theirs, and lets the methods explain it.
+class Explainer {
+  public:
+    Explainer(const Spec& spec, gl::Context& context, Scene& scene, const PixelStack& stack, int x, int y)
+        : m_context(context),
+          m_scene(scene),
+          m_target(context.gl(), spec.image, spec.image.format),
+          m_timer(context),
+          m_x(x),
+          m_y(y) {
+        for (const PixelFragment& fragment : stack.fragments)
+            m_fragments.push_back({fragment.primitive, fragment.depth});
+        if (stack.opaque) m_opaque_depth = stack.opaque->depth;
+    }
+
+    Explanation explain(const MethodSpec& spec) {
+        if (m_fragments.size() > max_explained_fragments)
+            return {.reason = fmt::format("the pixel has {} fragments; the limit is {}", m_fragments.size(),
+                                          max_explained_fragments)};
+        try {
+            Explanation explanation = draw_and_explain(spec);
+            m_context.check("explaining " + spec.label);
+            return explanation;
+        } catch (const Unsupported& unsupported) {
+            return {.reason = unsupported.what()};
+        }
+    }
+
+  private:
+    Explanation draw_and_explain(const MethodSpec& spec) {
+        const gl::Functions& gl = m_context.gl();
+        const auto method = find_method(spec.id)->make({m_context, gl, m_scene, m_target, spec.parameters});
+        if (method->keeps_frames()) render(*method);
+        const PixelTrace trace(gl, m_scene, {m_target.width_px(), m_target.height_px()}, {m_x, m_y}, m_fragments,
+                               m_opaque_depth);
+        render(*method);
+        Explanation explanation;
+        const glm::vec4 value = read_texel(gl, m_target.color(), m_x, m_y);
+        explanation.value = Rgb{value.r, value.g, value.b};
+        explanation.facts = method->explain(trace);
+        return explanation;
+    }
+
+    void render(Method& method) {
+        m_timer.begin_frame(false);
+        try {
+            method.render(m_timer);
+        } catch (...) {
+            m_timer.end_frame();
+            throw;
+        }
+        m_timer.end_frame();
+    }
+
+    gl::Context& m_context;
+    Scene& m_scene;
+    const Target m_target;
+    gl::FrameTimer m_timer;
+    int m_x, m_y;
+    std::vector<PixelTrace::Surface> m_fragments;  ///< near to far
+    double m_opaque_depth = 1;
+};
+
 }  // namespace
 
 void weigh(PixelStack& stack) {
@@ -115,11 +180,13 @@ void weigh(PixelStack& stack) {
 
 PixelStack take_pixel_apart(const Spec& spec, gl::Context& context, AssetReader& assets, int x, int y) {
     const Geometry geometry = build_geometry(spec.scene, spec.image, assets);
-    const Scene scene(context.gl(), geometry, spec.scene);
+    Scene scene(context.gl(), geometry, spec.scene);
     check_loops(context.gl(), scene, spec.image);
     const Target target(context.gl(), spec.image, PixelFormat::rgba32f);
     PixelStack stack = Autopsy(context, scene, target, x, y).run();
     weigh(stack);
+    Explainer explainer(spec, context, scene, stack, x, y);
+    for (const MethodSpec& method : spec.methods) stack.methods.push_back(explainer.explain(method));
     return stack;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/frame/pixel_trace.h"
 #include "renderer/gl/context.h"
 #include "renderer/scene/assets.h"
 #include "renderer/spec/spec.h"
@@ -28,6 +29,13 @@ struct OpaqueFragment {
     Rgb color{};
 };
 
+/// What a method made of a pixel, in its own terms.
+struct Explanation {
+    std::vector<PixelFact> facts;
+    std::optional<Rgb> value;  ///< of the pixel as it was drawn for this, in the spec's format
+    std::string reason;        ///< why there is nothing
+};
+
 /// Everything that a pixel of the exact picture is made of.
 struct PixelStack {
     Rgb background{};                      ///< of the spec
@@ -36,13 +44,17 @@ struct PixelStack {
     std::vector<PixelFragment> fragments;
     double transmittance = 1;  ///< what all fragments let through
     Rgb sum{};                 ///< the fragments' colours and what is behind them, weighted, in double precision
+    std::vector<Explanation> methods;  ///< of the spec's methods, in its order
 };
 
 /// Most fragments of a pixel that are taken apart.
 inline constexpr std::uint32_t max_pixel_fragments = 200'000;
+/// Most fragments of a pixel of which methods are explained: each is drawn by itself.
+inline constexpr std::size_t max_explained_fragments = 5'000;
 
 /// Draws the scene of a spec that is at one point, and keeps every fragment of the pixel (x, y), from the top left,
-/// which must be inside the image. Opaque surfaces and colours are in 32-bit floats, as in references.
+/// which must be inside the image; then draws a frame of each method at that pixel, which the method explains, and all
+/// frames before it where the method keeps them. Opaque surfaces and colours are in 32-bit floats, as in references.
 /// Throws SpecError and RenderError as compare() does; Unsupported if there are over max_pixel_fragments.
 PixelStack take_pixel_apart(const Spec& spec, gl::Context& context, AssetReader& assets, int x, int y);
 

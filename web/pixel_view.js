@@ -186,6 +186,52 @@ function method_table(pixel) {
   );
 }
 
+/** 1–4, 7: three or more in a row are a range. */
+function ranges(numbers) {
+  const runs = [];
+  for (const number of numbers) {
+    const run = runs.at(-1);
+    if (run && number === run.last + 1) run.last = number;
+    else runs.push({ first: number, last: number });
+  }
+  const text = ({ first, last }) =>
+    first === last ? `${first}` : last === first + 1 ? `${first}, ${last}` : `${first}–${last}`;
+  return runs.map(text).join(", ") || "none";
+}
+
+const color_line = (color) => el("span", { class: "color" }, color_swatch(color), el("span", {}, color_text(color)));
+
+/** What a fact's value looks like, by its kind. */
+const FACT_VALUES = {
+  number: (value) => (Number.isInteger(value) ? `${value}` : fixed(value, DECIMALS)),
+  color: color_line,
+  fragment: (value) => (value === null ? "none" : `#${value}`),
+  fragments: ranges,
+  samples: (value) =>
+    value.map(({ fragment, color }) => el("div", {}, color_line(color), fragment === null ? " opaque" : ` #${fragment}`)),
+};
+
+function explained_method(method) {
+  const note = method.explanation_reason && el("p", { class: "muted" }, method.explanation_reason);
+  const facts = (method.explanation ?? []).map(({ name, kind, value, text }) =>
+    el("div", {}, el("dt", {}, words(name)), el("dd", {}, FACT_VALUES[kind](value)), el("dd", { class: "muted" }, text)),
+  );
+  if (!note && facts.length === 0) return null;
+  return el("section", { "data-label": method.label }, el("h4", {}, method.label), note, el("dl", {}, facts));
+}
+
+function explanations(pixel) {
+  const methods = pixel.methods.filter((method) => method.status === "ok").map(explained_method).filter(Boolean);
+  if (methods.length === 0) return null;
+  return el(
+    "section",
+    { class: "pixel-explained" },
+    el("h3", {}, "How the methods came to their values"),
+    el("p", { class: "muted" }, "Fragments are numbered as in the first table."),
+    el("div", {}, methods),
+  );
+}
+
 const scroller = (label, table) =>
   el("div", { class: "scroller", tabindex: "0", role: "group", "aria-label": label }, table);
 
@@ -240,7 +286,7 @@ export class PixelView {
       const pixel = this.#known.get(key) ?? (await this.#patient_load(x, y, signal));
       if (signal.aborted) return;
       this.#known.set(key, pixel);
-      set_children(this.#body, scroller("Fragments", stack_table(pixel)), scroller("Methods", method_table(pixel)));
+      set_children(this.#body, scroller("Fragments", stack_table(pixel)), scroller("Methods", method_table(pixel)), explanations(pixel));
     } catch (error) {
       if (signal.aborted) return;
       set_children(this.#body, el("p", { class: "notice error", role: "alert" }, error.message));

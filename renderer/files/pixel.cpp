@@ -1,6 +1,7 @@
 #include "renderer/files/pixel.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,16 @@ json fragment_json(const PixelFragment& fragment) {
             {"weight", fragment.weight}};
 }
 
+/// Of a picture in 8 bits and of one in floats: more than rounding.
+constexpr double greatest_rounding = 1.5 / 255;
+
+json facts_json(const std::vector<PixelFact>& facts) {
+    json array = json::array();
+    for (const PixelFact& fact : facts)
+        array.push_back({{"name", fact.name}, {"kind", fact.kind}, {"value", fact.value}, {"text", fact.text}});
+    return array;
+}
+
 /// Which number a colour of count_picture stands for.
 std::uint32_t count_of(const Rgb& color, std::uint32_t full_scale) {
     std::array<std::uint8_t, 3> wanted{};
@@ -43,7 +54,7 @@ class PixelWriter {
         return object;
     }
 
-    json method(const json& result) const {
+    json method(const json& result, const Explanation* explanation) const {
         json object = {{"method", result.at("method")},
                        {"label", result.at("label")},
                        {"status", result.at("status")},
@@ -52,10 +63,12 @@ class PixelWriter {
                        {"difference", nullptr},
                        {"shaded", nullptr},
                        {"needed", nullptr},
-                       {"saturated_at", nullptr}};
+                       {"saturated_at", nullptr},
+                       {"explanation", nullptr}};
         if (result.at("status") != "ok") return object;
         add_value(object, result.at("images"));
         add_counts(object, result);
+        add_explanation(object, explanation);
         return object;
     }
 
@@ -69,6 +82,20 @@ class PixelWriter {
         for (std::size_t i = 0; i < 3; ++i) difference[i] = m_stack.sum[i] - value[i];
         object["value"] = value;
         object["difference"] = difference;
+    }
+
+    /// The method was drawn again for it, perhaps by another driver than the report's.
+    void add_explanation(json& object, const Explanation* explanation) const {
+        if (!explanation || !explanation->value) {
+            object["explanation_reason"] = explanation ? explanation->reason : "the method was not drawn again";
+            return;
+        }
+        object["explanation"] = facts_json(explanation->facts);
+        object["explained_value"] = *explanation->value;
+        for (std::size_t i = 0; i < 3; ++i)
+            if (std::abs((*explanation->value)[i] - object["value"][i].get<double>()) > greatest_rounding)
+                object["explanation_reason"] =
+                    "drawn again, the pixel is not as in the report's picture; this explains the new one";
     }
 
     void add_counts(json& object, const json& result) const {
@@ -122,6 +149,10 @@ std::string color_text(const json& color) {
                        color[2].get<double>());
 }
 
+std::string trimmed_color(const json& color) {
+    return fmt::format("{:.6f} {:.6f} {:.6f}", color[0].get<double>(), color[1].get<double>(), color[2].get<double>());
+}
+
 std::string count_text(const json& count) {
     return count.is_null() ? "-" : count.dump();
 }
@@ -166,6 +197,50 @@ std::string method_table(const json& pixel) {
     return text;
 }
 
+/// 1-4, 7
+std::string fragments_text(const json& numbers) {
+    std::string text;
+    for (std::size_t first = 0; first < numbers.size();) {
+        std::size_t last = first;
+        while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last].get<int>() + 1) ++last;
+        if (!text.empty()) text += ", ";
+        text += last - first < 2 ? numbers[first].dump() : numbers[first].dump() + "-" + numbers[last].dump();
+        first = last - first < 2 ? first + 1 : last + 1;
+    }
+    return text.empty() ? "none" : text;
+}
+
+std::string fact_text(const json& fact) {
+    const std::string kind = fact["kind"];
+    const json& value = fact["value"];
+    if (kind == "color") return trimmed_color(value);
+    if (kind == "fragments") return fragments_text(value);
+    if (value.is_null()) return "none";
+    if (kind == "number" && value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (!value.is_array()) return value.dump();
+    std::vector<std::string> parts;
+    for (const json& sample : value)
+        parts.push_back(fmt::format("{}: {}", sample["fragment"].is_null() ? "opaque" : sample["fragment"].dump(),
+                                    trimmed_color(sample["color"])));
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// A method's heading, then a line for each fact and what it means below.
+std::string explanations(const json& pixel) {
+    std::string text;
+    for (const json& method : pixel.at("methods")) {
+        const std::string reason = method.value("explanation_reason", "");
+        if (method["status"] != "ok" || (method["explanation"].empty() && reason.empty())) continue;
+        text += fmt::format("\n{}\n", method["label"].get<std::string>());
+        if (!reason.empty()) text += fmt::format("  Note: {}\n", reason);
+        if (method["explanation"].is_null()) continue;
+        for (const json& fact : method["explanation"])
+            text += fmt::format("  {:<16} {}\n  {:<16}   {}\n", fact["name"].get<std::string>(), fact_text(fact), "",
+                                fact["text"].get<std::string>());
+    }
+    return text.empty() ? text : "\nHow the methods came to their values; fragments are numbered as above\n" + text;
+}
+
 }  // namespace
 
 json pixel_report(const PixelStack& stack, int x, int y, const json& run, const PictureReader& read_picture) {
@@ -174,7 +249,10 @@ json pixel_report(const PixelStack& stack, int x, int y, const json& run, const 
     if (stack.opaque) opaque = {{"depth", stack.opaque->depth}, {"color", stack.opaque->color}};
     json fragments = json::array(), methods = json::array();
     for (const PixelFragment& fragment : stack.fragments) fragments.push_back(fragment_json(fragment));
-    for (const json& result : run.at("results")) methods.push_back(writer.method(result));
+    for (const json& result : run.at("results")) {
+        const std::size_t number = methods.size();
+        methods.push_back(writer.method(result, number < stack.methods.size() ? &stack.methods[number] : nullptr));
+    }
     return {{"x", x},
             {"y", y},
             {"point", run.at("point")},
@@ -188,8 +266,9 @@ json pixel_report(const PixelStack& stack, int x, int y, const json& run, const 
 }
 
 std::string pixel_table(const json& pixel) {
-    return fmt::format("Pixel {}, {}: {} transparent fragments, near to far\n\n{}\n{}", pixel.at("x").dump(),
-                       pixel.at("y").dump(), pixel.at("fragments").size(), stack_table(pixel), method_table(pixel));
+    return fmt::format("Pixel {}, {}: {} transparent fragments, near to far\n\n{}\n{}{}", pixel.at("x").dump(),
+                       pixel.at("y").dump(), pixel.at("fragments").size(), stack_table(pixel), method_table(pixel),
+                       explanations(pixel));
 }
 
 }  // namespace sheer

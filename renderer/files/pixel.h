@@ -16,7 +16,8 @@ using PictureReader = std::function<std::string(const nlohmann::json& image)>;
 ///
 /// Values are red, green, blue as in the picture, 0..1 where nothing is over; `difference` is the exact sum minus the
 /// value, as in the metric `signed`. Counts come from the report's pictures of counts; null, with a reason, where these
-/// cannot tell them apart.
+/// cannot tell them apart. `explanation` holds each method's own facts, [{name, kind, value, text}], of the pixel as it
+/// was drawn again, `explained_value`; null, with a reason, where it could not be.
 nlohmann::json pixel_report(const PixelStack& stack, int x, int y, const nlohmann::json& run,
                             const PictureReader& read_picture);
 

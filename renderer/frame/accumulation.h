@@ -1,4 +1,8 @@
 #pragma once
+#include <optional>
+#include <vector>
+
+#include "renderer/frame/pixel_trace.h"
 #include "renderer/frame/target.h"
 
 namespace sheer {
@@ -32,5 +36,8 @@ class Accumulation {
     gl::Framebuffer m_framebuffer;
     FullscreenPass m_composite;
 };
+
+/// Tells of a pixel what an accumulation held when the last fragment had been blended; nothing if none was.
+void add_accumulated(std::vector<PixelFact>& facts, const std::optional<glm::vec4>& color);
 
 }  // namespace sheer

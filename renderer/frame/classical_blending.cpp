@@ -27,4 +27,9 @@ void ClassicalBlending::render(gl::FrameTimer& timer) {
     m_gl.Disable(GL_BLEND);
 }
 
+std::vector<PixelFact> ClassicalBlending::explain(const PixelTrace& trace) const {
+    return {fragments_fact("blended", trace.of(m_program).passed(),
+                           "The fragments in the order in which they were blended, each over all before it.")};
+}
+
 }  // namespace sheer

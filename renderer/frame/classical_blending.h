@@ -8,6 +8,7 @@ class ClassicalBlending : public Method {
   public:
     ClassicalBlending(const MethodSetup& setup, Order order);
     void render(gl::FrameTimer& timer) override;
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override;
 
   private:
     const gl::Functions& m_gl;

@@ -83,6 +83,19 @@ void DiscardingBlending::draw_batches() const {
     }
 }
 
+std::vector<PixelFact> DiscardingBlending::explain(const PixelTrace& trace) const {
+    const PixelTrace::Draws draws = trace.of(m_program);
+    const std::vector<std::size_t> discarded = draws.failed();
+    std::vector<PixelFact> facts = {
+        fragments_fact("blended", draws.passed(), "The fragments that found enough of the transmittance left."),
+        fragments_fact("discarded", discarded, "The fragments that gave up before they were shaded."),
+        fragment_fact("saturated_at", discarded.empty() ? std::nullopt : draws.last_passed(),
+                      "The fragment after which less than the threshold was left; none if nothing was discarded, or "
+                      "if all was.")};
+    add_accumulated(facts, draws.color);
+    return facts;
+}
+
 void DiscardingBlending::synchronise() const {
     switch (m_sync) {
         case Sync::barrier:

@@ -12,6 +12,7 @@ class DiscardingBlending : public Method {
     /// Throws Unsupported for framebuffer_fetch where the driver lacks it.
     DiscardingBlending(const MethodSetup& setup, float initial_transmittance);
     void render(gl::FrameTimer& timer) override;
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override;
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
   private:

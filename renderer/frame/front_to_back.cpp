@@ -23,4 +23,13 @@ void FrontToBack::render(gl::FrameTimer& timer) {
     m_accumulation.composite();
 }
 
+std::vector<PixelFact> FrontToBack::explain(const PixelTrace& trace) const {
+    const PixelTrace::Draws draws = trace.of(m_program);
+    std::vector<PixelFact> facts = {fragments_fact("blended", draws.passed(),
+                                                   "The fragments in the order in which they were blended, each behind "
+                                                   "all before it.")};
+    add_accumulated(facts, draws.color);
+    return facts;
+}
+
 }  // namespace sheer

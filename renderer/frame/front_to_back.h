@@ -10,6 +10,7 @@ class FrontToBack : public Method {
   public:
     FrontToBack(const MethodSetup& setup, PixelFormat accumulation_format);
     void render(gl::FrameTimer& timer) override;
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override;
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
   private:

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "renderer/frame/texel.h"
+
 namespace sheer {
 
 namespace {
@@ -46,6 +48,19 @@ Multisample::Multisample(const gl::Functions& gl, const Target& target, int samp
       m_color(make_texture(gl, "multisample color", gl_format(target.format()), target, m_samples)),
       m_depth(make_texture(gl, "multisample depth", GL_DEPTH_COMPONENT32F, target, m_samples)),
       m_framebuffer(gl::make_framebuffer(gl, "multisample", std::array{m_color.id()}, m_depth.id())) {}
+
+std::vector<Multisample::Sample> Multisample::read(int x, int y) const {
+    const FullscreenPass one_sample(m_gl, "one sample", gl::shader_file("common/one_sample.glsl"));
+    std::vector<Sample> samples;
+    m_gl.BindTextureUnit(first_method_texture_unit, m_color.id());
+    m_gl.BindTextureUnit(first_method_texture_unit + 1, m_depth.id());
+    for (int i = 0; i < m_samples; ++i) {
+        one_sample.program().set("u_sample", i);
+        samples.push_back(
+            {shade_texel(m_gl, one_sample, m_target, x, y, 0), shade_texel(m_gl, one_sample, m_target, x, y, 1).r});
+    }
+    return samples;
+}
 
 void Multisample::resolve_color() const {
     const int width = m_target.width_px(), height = m_target.height_px();

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "renderer/frame/target.h"
 
 namespace sheer {
@@ -13,6 +15,12 @@ class Multisample {
     const gl::Framebuffer& framebuffer() const { return m_framebuffer; }
     const gl::Texture& depth() const { return m_depth; }
     int samples() const { return m_samples; }
+    struct Sample {
+        glm::vec4 color{};
+        float depth = 1;
+    };
+    /// The samples of a pixel. Waits for the device.
+    std::vector<Sample> read(int x, int y) const;
     /// The mean of each pixel's samples becomes the target's colour; its depth stays.
     void resolve_color() const;
     std::int64_t memory_bytes() const;

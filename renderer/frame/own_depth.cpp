@@ -58,6 +58,15 @@ void OwnDepth::begin_depth_only() const {
     begin_pass(m_gl, m_depth_only, m_target.width_px(), m_target.height_px());
 }
 
+OwnDepth::Texel OwnDepth::read(int x, int y) const {
+    Texel texel;
+    m_gl.BindFramebuffer(GL_FRAMEBUFFER, m_depth_only.id());
+    m_gl.ReadPixels(x, y, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &texel.depth);
+    if (m_format == GL_DEPTH24_STENCIL8 || m_format == GL_DEPTH32F_STENCIL8)
+        m_gl.ReadPixels(x, y, 1, 1, GL_STENCIL_INDEX, GL_INT, &texel.stencil);
+    return texel;
+}
+
 std::int64_t OwnDepth::memory_bytes() const {
     return std::int64_t{m_target.width_px()} * m_target.height_px() * depth_bytes_per_pixel(m_format);
 }

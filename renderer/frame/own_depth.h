@@ -17,6 +17,12 @@ class OwnDepth {
     void begin_blending() const;
     /// begin_pass on this depth alone, so that the colour may be read.
     void begin_depth_only() const;
+    struct Texel {
+        float depth = 0;
+        GLint stencil = 0;  ///< 0 if there is none
+    };
+    /// Waits for the device.
+    Texel read(int x, int y) const;
     std::int64_t memory_bytes() const;
 
   private:

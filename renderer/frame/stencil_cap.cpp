@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "renderer/frame/texel.h"
+
 namespace sheer {
 
 namespace {
@@ -168,6 +170,31 @@ void StencilCap::fill() const {
     m_gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     m_gl.BindTextureUnit(first_method_texture_unit, m_previous.id());
     m_fill.draw();
+}
+
+std::vector<PixelFact> StencilCap::explain(const PixelTrace& trace) const {
+    const PixelTrace::Draws draws = trace.of(m_program);
+    const int counted = m_depth.read(trace.x(), trace.y()).stencil;
+    const std::vector<std::size_t> let_through = draws.passed();
+    std::vector<std::size_t> faint, cut;
+    for (const std::size_t number : draws.failed())
+        (counted >= m_layers && !let_through.empty() && number > let_through.back() ? cut : faint).push_back(number);
+    std::vector<PixelFact> facts = {
+        fragments_fact("let_through", let_through, "The fragments that were blended, near to far."),
+        fragments_fact("dropped", faint,
+                       m_zcull ? "The fragments under min_alpha, or behind the depth that the coarse pass left."
+                               : "The fragments under min_alpha, which use up no layer."),
+        fragments_fact("cut", cut, "The fragments behind the cap."),
+        number_fact("stencil", counted, "How many fragments the stencil counted; at `layers` the pixel is full.")};
+    add_accumulated(facts, draws.color);
+    const bool filled = m_frame > 1 && counted >= m_layers;
+    m_gl.BindTextureUnit(first_method_texture_unit, m_previous.id());
+    const glm::vec3 fill_color(shade_texel(m_gl, m_fill, m_target, trace.x(), trace.y()));
+    facts.push_back(color_fact("fill", fill_color,
+                               filled ? "What the previous frame's copy gave behind them."
+                                      : "What the previous frame's copy would give; not drawn, since the pixel is not "
+                                        "full or there is no previous frame."));
+    return facts;
 }
 
 void StencilCap::keep_picture() const {

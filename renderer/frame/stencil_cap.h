@@ -17,6 +17,8 @@ class StencilCap : public Method {
     /// previous frame, so that the picture is always that of frame `frames` and the time that of one frame.
     void render(gl::FrameTimer& timer) override;
     void restart() override { m_frame = 0; }
+    bool keeps_frames() const override { return true; }
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override;
     std::int64_t memory_bytes() const override;
     /// {"change_per_frame": [...]}
     nlohmann::json findings(gl::FrameTimer& timer) override;

@@ -28,6 +28,17 @@ class AlphaTest : public Method {
         m_scene.draw_transparent(m_program, Order::submission);
     }
 
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override {
+        const PixelTrace::Draws draws = trace.of(m_program);
+        return {fragment_fact("shown", draws.last_passed(),
+                              "The fragment that is seen, the last that was drawn; none if what is behind is seen."),
+                fragments_fact("drawn", draws.passed(),
+                               "The fragments that passed the alpha and the depth test, in the order of submission; "
+                               "each hides the ones before it."),
+                fragments_fact("dropped", draws.failed(),
+                               "The fragments of too little alpha, or behind one drawn before.")};
+    }
+
   private:
     const gl::Functions& m_gl;
     const Scene& m_scene;

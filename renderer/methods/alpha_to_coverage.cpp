@@ -4,6 +4,8 @@
 // their mean. Good at: softer edges than alpha testing without sorting. Bad at: as many levels as samples; layers of
 // like alpha cover the same samples, so that the near one hides the far one whole; the mask's rule is the device's own.
 // Parameters: `samples` 2 or 4, 4; `reference` 0..1, 0: fragments of less alpha are dropped first (0 drops none).
+#include <optional>
+
 #include "renderer/frame/multisample.h"
 #include "renderer/methods/method.h"
 
@@ -41,6 +43,18 @@ class AlphaToCoverage : public Method {
         }
         const auto pass = timer.pass("resolve", gl::Phase::finalization);
         m_multisample.resolve_color();
+    }
+
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override {
+        nlohmann::json samples = nlohmann::json::array();
+        for (const Multisample::Sample& sample : m_multisample.read(trace.x(), trace.y())) {
+            const std::optional<std::size_t> fragment = trace.at_depth(sample.depth);
+            samples.push_back({{"fragment", fragment ? nlohmann::json(*fragment) : nlohmann::json()},
+                               {"color", {sample.color.r, sample.color.g, sample.color.b}}});
+        }
+        return {{"samples", "samples", samples,
+                 "What each sample of the pixel holds, and the fragment at its depth, none where what is opaque is "
+                 "left; the pixel is their mean."}};
     }
 
     std::int64_t memory_bytes() const override { return m_multisample.memory_bytes(); }

@@ -52,6 +52,20 @@ class DepthMarks : public Method {
         m_accumulation.composite();
     }
 
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override {
+        const PixelTrace::Draws draws = trace.of(m_program);
+        const std::vector<std::size_t> rejected = draws.failed();
+        std::vector<PixelFact> facts = {
+            fragments_fact("blended", draws.passed(),
+                           "The fragments that were shaded, those in vain included that came between saturation and "
+                           "the mark."),
+            fragments_fact("rejected", rejected, "The fragments that failed the depth test against the mark."),
+            fragment_fact("marked_before", rejected.empty() ? std::nullopt : std::optional(rejected.front()),
+                          "The first fragment that found the pixel marked; none if it was not marked in time.")};
+        add_accumulated(facts, draws.color);
+        return facts;
+    }
+
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
   private:

@@ -10,6 +10,7 @@
 // matter: up to 3 D for four layers of alpha 1 (slide 21). Parameters: `variant` simple or full, simple.
 #include <array>
 
+#include "renderer/frame/texel.h"
 #include "renderer/methods/method.h"
 
 namespace sheer {
@@ -70,6 +71,26 @@ class Meshkin : public Method {
         return pixels * (m_in_32_bits ? 4 : 2) * (m_full ? 6 : 4);
     }
 
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override {
+        const int x = trace.x(), y = trace.y();
+        const glm::vec4 sums = read_texel(m_gl, m_sums, x, y);
+        std::vector<PixelFact> facts = {
+            color_fact("color_sum", glm::vec3(sums), "S, the sum of alpha times colour over all fragments."),
+            number_fact("alpha_sum", sums.a, "A, the sum of the alphas.")};
+        if (m_full) {
+            facts.push_back(number_fact("alpha_product", read_texel(m_gl, m_products, x, y).r,
+                                        "P, the product of the alphas that are not 0."));
+            facts.push_back(number_fact("reciprocal_sum", read_texel(m_gl, m_reciprocals, x, y).r,
+                                        "R, the sum of one over each alpha that is not 0."));
+        }
+        bind_sums();
+        const double weight = sums.a == 0 ? 1 : shade_texel(m_gl, m_composite, m_target, x, y, 1).r;
+        facts.push_back(number_fact("opaque_weight", weight,
+                                    m_full ? "What the opaque colour is weighed by beside S: 1 - A + P - R P."
+                                           : "What the opaque colour is weighed by beside S: 1 - A."));
+        return facts;
+    }
+
   private:
     /// What is not finite would spoil the sum of the reciprocals.
     std::string prolog() const {
@@ -102,13 +123,17 @@ class Meshkin : public Method {
     void composite() const {
         begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
         m_gl.TextureBarrier();
+        bind_sums();
+        m_composite.draw();
+    }
+
+    void bind_sums() const {
         m_gl.BindTextureUnit(unit_opaque, m_target.color().id());
         m_gl.BindTextureUnit(unit_sums, m_sums.id());
         if (m_full) {
             m_gl.BindTextureUnit(unit_reciprocals, m_reciprocals.id());
             m_gl.BindTextureUnit(unit_products, m_products.id());
         }
-        m_composite.draw();
     }
 
     const gl::Functions& m_gl;

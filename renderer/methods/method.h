@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/frame/pixel_trace.h"
 #include "renderer/frame/target.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/timer.h"
@@ -30,10 +31,15 @@ class Method {
     virtual void render(gl::FrameTimer& timer) = 0;
     /// Forgets the frames before: the next one is drawn as a new method's first.
     virtual void restart() {}
+    /// Whether a frame is made of the ones before it. Then restart() forgets them.
+    virtual bool keeps_frames() const { return false; }
     /// Textures and buffers that the method needs beside the target.
     virtual std::int64_t memory_bytes() const { return 0; }
     /// What only this method has to report, an object; may render frames of its own, which are not timed.
     virtual nlohmann::json findings(gl::FrameTimer&) { return nlohmann::json::object(); }
+    /// What the pixel of `trace` is made of in the method's own terms, after a frame that was traced; from what the
+    /// trace tells of its programs and from its own textures.
+    virtual std::vector<PixelFact> explain(const PixelTrace&) const { return {}; }
 };
 
 /// A method describes itself; the file renderer/methods/<id>.cpp ends with `MethodInfo method_<id>()`.

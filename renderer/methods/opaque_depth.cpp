@@ -13,6 +13,8 @@
 // two_pass, since it writes depth; two_pass draws every primitive by itself, twice. Parameters: `variant`; `depth_bits`
 // 16 to 24, 24: 2^bits - 1 steps; `batch` primitives between merges, 0 (default) for as many as there are steps.
 // two_pass takes no notice of the last two.
+#include <algorithm>
+
 #include "renderer/frame/accumulation.h"
 #include "renderer/frame/own_depth.h"
 #include "renderer/methods/method.h"
@@ -115,6 +117,36 @@ class OpaqueDepth : public Method {
         m_accumulation.composite();
     }
 
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override {
+        const PixelTrace::Draws draws = trace.of(m_program);
+        const std::optional<std::size_t> closing = closed_by(draws, m_depth.read(trace.x(), trace.y()));
+        std::vector<std::size_t> blended = draws.passed();
+        std::optional<glm::vec4> color = draws.color;
+        if (m_variant == Variant::two_pass) {
+            const PixelTrace::Draws translucent = trace.of(m_translucent);
+            blended = translucent.passed();
+            if (closing) std::erase_if(blended, [&](std::size_t number) { return number >= *closing; });
+            if (closing) blended.push_back(*closing);
+            color = translucent.color;
+        }
+        std::vector<std::size_t> transparent, behind;
+        for (const PixelTrace::Fragment& fragment : draws.fragments) {
+            if (std::ranges::count(blended, fragment.number) > 0) continue;
+            (blended.empty() || fragment.number < blended.back() ? transparent : behind).push_back(fragment.number);
+        }
+        std::vector<PixelFact> facts = {
+            fragment_fact("closed_by", closing,
+                          "The fragment after which the pixel was marked: an opaque one, or with target_alpha the last "
+                          "of a batch that used up the transmittance; none if it was not marked."),
+            fragments_fact("blended", blended, "The fragments that were blended, near to far."),
+            fragments_fact("dropped", transparent, "The fully transparent fragments between them."),
+            fragments_fact("behind", behind,
+                           "The fragments after the last that was blended: behind a mark, or fully "
+                           "transparent.")};
+        add_accumulated(facts, color);
+        return facts;
+    }
+
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes() + m_depth.memory_bytes(); }
 
   private:
@@ -128,6 +160,13 @@ class OpaqueDepth : public Method {
     /// The greatest mark of target_alpha belongs to what earlier batches closed.
     int first_mark() const { return m_variant == Variant::target_alpha ? m_greatest_mark - 1 : m_greatest_mark; }
 
+    /// Of two passes, what the opaque one let through. Else the last fragment that was drawn, if there is a mark: after
+    /// a mark nothing is.
+    std::optional<std::size_t> closed_by(const PixelTrace::Draws& draws, const OwnDepth::Texel& left) const {
+        const bool is_marked = m_variant == Variant::two_pass || left.stencil != 0 || left.depth > 0;
+        return is_marked ? draws.last_passed() : std::nullopt;
+    }
+
     void draw_batches() const {
         for (std::size_t i = 0; i + 1 < m_batches.size(); ++i) {
             if (i > 0) m_variant == Variant::shader_depth ? merge_into_stencil() : mark_saturated();
@@ -136,6 +175,8 @@ class OpaqueDepth : public Method {
             m_gl.DepthFunc(GL_GEQUAL);
             test_stencil(GL_KEEP, GL_KEEP);
             m_gl.BindTextureUnit(first_method_texture_unit + 1, m_target.depth().id());
+            m_program.set("u_batch_triangle",
+                          static_cast<int>(m_scene.triangle_count(Order::near_to_far, 0, m_batches[i])));
             m_scene.draw_transparent(m_program, Order::near_to_far, m_batches[i], m_batches[i + 1] - m_batches[i]);
         }
     }

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "renderer/frame/multisample.h"
+#include "renderer/frame/texel.h"
 #include "renderer/methods/method.h"
 
 namespace sheer {
@@ -65,6 +66,20 @@ class ScreenSpaceAlphaMask : public Method {
         }
         const auto pass = timer.pass("composite", gl::Phase::finalization);
         composite();
+    }
+
+    std::vector<PixelFact> explain(const PixelTrace& trace) const override {
+        const int x = trace.x(), y = trace.y();
+        const glm::vec4 masks = read_texel(m_gl, m_mask, x, y);
+        bind_parts();
+        return {fragment_fact("chosen", trace.of(m_draw_color).last_passed(),
+                              "The nearest fragment that passed the alpha test, whose colour is laid over the opaque "
+                              "picture; none if it is the clear colour."),
+                color_fact("color", glm::vec3(read_texel(m_gl, m_foliage, x, y)), "That colour."),
+                number_fact("mask_maximum", masks.r, "The greatest alpha of the pixel's fragments."),
+                number_fact("mask_sum", masks.a, "The sum of their alphas; over 1 it counts as 1."),
+                number_fact("blend", shade_texel(m_gl, m_composite, m_target, x, y, 1).r,
+                            "How much of that colour is seen, made of the two masks; the rest is the opaque picture.")};
     }
 
     std::int64_t memory_bytes() const override {
@@ -124,10 +139,14 @@ class ScreenSpaceAlphaMask : public Method {
     void composite() const {
         begin(m_target.framebuffer());
         m_gl.TextureBarrier();
+        bind_parts();
+        m_composite.draw();
+    }
+
+    void bind_parts() const {
         m_gl.BindTextureUnit(opaque_unit, m_target.color().id());
         m_gl.BindTextureUnit(mask_unit, m_mask.id());
         m_gl.BindTextureUnit(foliage_unit, m_foliage.id());
-        m_composite.draw();
     }
 
     const gl::Functions& m_gl;

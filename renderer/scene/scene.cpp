@@ -88,6 +88,7 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
     for (const std::size_t i : order) {
         const Primitive& primitive = geometry.primitives[i];
         list.first_index.push_back(indices.size());
+        list.primitives.push_back(static_cast<std::uint32_t>(i));
         const auto first = geometry.indices.begin() + primitive.first_index;
         indices.insert(indices.end(), first, first + primitive.index_count);
     }
@@ -243,6 +244,7 @@ void Scene::draw_unobserved(const gl::Program& program, Order order, std::size_t
     const DrawList& drawn = list(order);
     bind(program, drawn.indices);
     const std::size_t begin = drawn.first_index[first], end = drawn.first_index[first + count];
+    program.set("u_first_triangle", static_cast<int>(begin / 3));
     m_gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
                       reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
 }

@@ -29,11 +29,14 @@ class Scene {
     std::size_t transparent_count() const { return m_transparent_count; }
     /// Triangles of `count` transparent primitives from the `first` in this order.
     std::size_t triangle_count(Order order, std::size_t first, std::size_t count) const;
+    /// The number of the primitive, in the order of submission and opaque ones counted too, at `place` of this order.
+    std::uint32_t primitive_at(Order order, std::size_t place) const { return list(order).primitives[place]; }
     bool has_opaque() const { return m_opaque_index_count > 0; }
 
     /// A program that draws this scene: its vertex stage, `real_work(vec2 uv, vec4 tint)`, then `method_source` with
     /// main(). `prolog` comes right after #version: #extension and #define lines.
-    /// main() sees what is in shaders/scenes/inputs.glsl.
+    /// main() sees what is in shaders/scenes/inputs.glsl; where it asks for a uniform int u_first_triangle, this plus
+    /// gl_PrimitiveID is a triangle's place in the order that is drawn, however many draws it is divided into.
     /// Throws SpecError at /scene/shading/glsl if it is the user's own shading that does not compile.
     gl::Program make_program(std::string_view label, std::string_view method_source,
                              const std::string& prolog = {}) const;
@@ -55,7 +58,8 @@ class Scene {
   private:
     struct DrawList {
         gl::Buffer indices;
-        std::vector<std::size_t> first_index;  ///< of each primitive, and one past the last
+        std::vector<std::size_t> first_index;   ///< of each primitive, and one past the last
+        std::vector<std::uint32_t> primitives;  ///< their numbers
     };
     DrawList make_list(const Geometry& geometry, const std::vector<std::size_t>& order, std::string_view label) const;
     void make_shading(const Geometry& geometry, const nlohmann::json& parameters);

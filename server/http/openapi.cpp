@@ -163,17 +163,29 @@ json pixel_schema() {
                                         {"depth", "color", "alpha", "primitive", "transmittance_before", "weight"});
     json opaque = object_schema({{"depth", number}, {"color", color_schema()}}, {"depth", "color"});
     opaque["type"] = {"object", "null"};
-    json method =
-        object_schema({{"method", text_schema()},
-                       {"label", text_schema()},
-                       {"status", text_schema()},
-                       {"reason", nullable("string")},
-                       {"value", color_or_null},
-                       {"difference", color_or_null},
-                       {"shaded", count},
-                       {"needed", count},
-                       {"saturated_at", count}},
-                      {"method", "label", "status", "value", "difference", "shaded", "needed", "saturated_at"});
+    const json fact = object_schema(
+        {{"name", text_schema()},
+         {"kind", {{"enum", {"number", "color", "fragment", "fragments", "samples"}}}},
+         {"value", {{"description", "by its kind; a fragment is its place in `fragments`, from 1, or null for none"}}},
+         {"text", text_schema()}},
+        {"name", "kind", "value", "text"});
+    const json facts = {{"type", {"array", "null"}},
+                        {"description", "what the method made of the pixel, in its own terms"},
+                        {"items", fact}};
+    json method = object_schema(
+        {{"method", text_schema()},
+         {"label", text_schema()},
+         {"status", text_schema()},
+         {"reason", nullable("string")},
+         {"value", color_or_null},
+         {"difference", color_or_null},
+         {"shaded", count},
+         {"needed", count},
+         {"saturated_at", count},
+         {"explanation", facts},
+         {"explained_value", color_schema()},
+         {"explanation_reason", text_schema()}},
+        {"method", "label", "status", "value", "difference", "shaded", "needed", "saturated_at", "explanation"});
     method["description"] = "a count that is not known is null, and <name>_reason says why";
     return object_schema(
         {{"x", {{"type", "integer"}}},

@@ -11,6 +11,9 @@ layout(binding = 9) uniform sampler2D u_opaque_depth;
 
 // Marks count down from u_first_mark, one for each triangle, and stay above the 0 of translucent fragments.
 uniform int u_first_mark, u_greatest_mark;
+
+// Places of triangles in the order of drawing: of the first of this draw, and of the first of the batch.
+uniform int u_first_triangle, u_batch_triangle;
 #endif
 
 void main() {
@@ -22,7 +25,8 @@ void main() {
     bool is_opaque = work.a > 1.0 - u_half_step;
     if (work.a < u_half_step) discard;
 #if defined(SHADER_DEPTH)
-    gl_FragDepth = is_opaque ? float(max(u_first_mark - gl_PrimitiveID, 1)) / float(u_greatest_mark) : 0.0;
+    int steps = u_first_triangle - u_batch_triangle + gl_PrimitiveID;
+    gl_FragDepth = is_opaque ? float(max(u_first_mark - steps, 1)) / float(u_greatest_mark) : 0.0;
 #elif defined(OPAQUE_ONLY)
     if (!is_opaque) discard;
 #else

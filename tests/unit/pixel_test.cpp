@@ -61,13 +61,13 @@ class PixelReportTest : public testing::Test {
                 {"fragments", json::object()}};
     }
 
-    json report_of(const json& results) {
+    json report_of(const json& results, const PixelStack& stack = known_stack()) {
         const json run = {
             {"point", json::object()},
             {"reference",
              {{"method", "exact"}, {"images", {{"linear", color_image("exact", {0.575f, 0.275f, 0.3f}, true)}}}}},
             {"results", results}};
-        return pixel_report(known_stack(), x, y, run,
+        return pixel_report(stack, x, y, run,
                             [this](const json& image) { return m_pictures.at(image["sha256"].get<std::string>()); });
     }
 
@@ -148,6 +148,50 @@ TEST_F(PixelReportTest, GreatCountsHaveAPictureOfTheirOwn) {
         EXPECT_EQ(method["needed"], count == 0 ? 2 : count);
         EXPECT_EQ(method["saturated_at"], count == 0 ? json() : json(count));
     }
+}
+
+/// A fact of each kind, as JSON and as a person reads it.
+TEST_F(PixelReportTest, MethodsExplainTheirValues) {
+    PixelStack stack = known_stack();
+    const json sample = {{"fragment", nullptr}, {"color", {0.25, 0.5, 0.75}}};
+    stack.methods = {{.facts = {number_fact("alpha_sum", 0.75, "The sum."),
+                                color_fact("color", {0.5f, 0, 1}, "That."),
+                                fragment_fact("shown", 2, "Seen."),
+                                fragment_fact("marked", std::nullopt, "Marked."),
+                                fragments_fact("blended", {1, 2, 3, 7, 9, 10}, "In order."),
+                                fragments_fact("cut", {}, "Not drawn."),
+                                {"samples", "samples", json::array({sample}), "Of each."}},
+                      .value = Rgb{0.5, 0.25, 0.3}}};
+    const json images = {{"color", color_image("a", {0.5f, 0.25f, 0.3f}, false)}};
+    const json pixel = report_of(json::array({result("b2f", json::object(), images)}), stack);
+    const json& method = pixel["methods"][0];
+    ASSERT_EQ(method["explanation"].size(), 7u);
+    EXPECT_EQ(method["explanation"][2],
+              json({{"name", "shown"}, {"kind", "fragment"}, {"value", 2}, {"text", "Seen."}}));
+    EXPECT_EQ(method["explanation"][3]["value"], json());
+    EXPECT_EQ(method["explained_value"], json({0.5, 0.25, 0.3}));
+    EXPECT_FALSE(method.contains("explanation_reason"));
+    const std::string table = pixel_table(pixel);
+    for (const char* line :
+         {"alpha_sum        0.75\n", "color            0.500000 0.000000 1.000000\n", "shown            2\n",
+          "marked           none\n", "blended          1-3, 7, 9, 10\n", "cut              none\n",
+          "samples          opaque: 0.250000 0.500000 0.750000\n", "The sum.\n"})
+        EXPECT_THAT(table, HasSubstr(line));
+}
+
+TEST_F(PixelReportTest, AnExplanationOfAnotherPictureSaysSo) {
+    PixelStack stack = known_stack();
+    stack.methods = {{.facts = {number_fact("alpha_sum", 0.75, "The sum.")}, .value = Rgb{0.5, 0.25, 0.31}},
+                     {.reason = "no float targets"}};
+    const json images = {{"color", color_image("a", {0.5f, 0.25f, 0.3f}, false)}};
+    const json one = result("b2f", json::object(), images);
+    const json pixel = report_of(json::array({one, one, one}), stack);
+    EXPECT_EQ(pixel["methods"][0]["explanation"].size(), 1u);
+    EXPECT_THAT(pixel["methods"][0]["explanation_reason"].get<std::string>(), HasSubstr("not as in the report"));
+    EXPECT_EQ(pixel["methods"][1]["explanation"], json());
+    EXPECT_EQ(pixel["methods"][1]["explanation_reason"], "no float targets");
+    EXPECT_EQ(pixel["methods"][2]["explanation"], json()) << "only two were drawn again";
+    EXPECT_THAT(pixel_table(pixel), HasSubstr("Note: no float targets"));
 }
 
 TEST_F(PixelReportTest, AMethodThatDidNotRunSaysWhy) {
