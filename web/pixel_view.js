@@ -186,17 +186,17 @@ function method_table(pixel) {
   );
 }
 
-/** 1–4, 7: three or more in a row are a range. */
+/** 1–4, 7, or 4–1, 7: three or more in a row, up or down, are a range. */
 function ranges(numbers) {
-  const runs = [];
-  for (const number of numbers) {
-    const run = runs.at(-1);
-    if (run && number === run.last + 1) run.last = number;
-    else runs.push({ first: number, last: number });
+  const parts = [];
+  for (let first = 0, last; first < numbers.length; first = last + 1) {
+    const step = numbers[first + 1] - numbers[first];
+    last = first;
+    while (Math.abs(step) === 1 && numbers[last + 1] === numbers[last] + step) ++last;
+    if (last - first < 2) last = first;
+    parts.push(last === first ? numbers[first] : `${numbers[first]}–${numbers[last]}`);
   }
-  const text = ({ first, last }) =>
-    first === last ? `${first}` : last === first + 1 ? `${first}, ${last}` : `${first}–${last}`;
-  return runs.map(text).join(", ") || "none";
+  return parts.join(", ") || "none";
 }
 
 const color_line = (color) => el("span", { class: "color" }, color_swatch(color), el("span", {}, color_text(color)));

@@ -197,17 +197,18 @@ std::string method_table(const json& pixel) {
     return text;
 }
 
-/// 1-4, 7
+/// 1-4, 7, or 4-1, 7: three or more in a row, up or down, are a range.
 std::string fragments_text(const json& numbers) {
-    std::string text;
-    for (std::size_t first = 0; first < numbers.size();) {
-        std::size_t last = first;
-        while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last].get<int>() + 1) ++last;
-        if (!text.empty()) text += ", ";
-        text += last - first < 2 ? numbers[first].dump() : numbers[first].dump() + "-" + numbers[last].dump();
-        first = last - first < 2 ? first + 1 : last + 1;
+    const auto at = [&](std::size_t i) { return numbers[i].get<std::int64_t>(); };
+    std::vector<std::string> parts;
+    for (std::size_t first = 0, last = 0; first < numbers.size(); first = last + 1) {
+        const std::int64_t step = first + 1 < numbers.size() ? at(first + 1) - at(first) : 0;
+        last = first;
+        while ((step == 1 || step == -1) && last + 1 < numbers.size() && at(last + 1) == at(last) + step) ++last;
+        if (last - first < 2) last = first;
+        parts.push_back(last == first ? fmt::format("{}", at(first)) : fmt::format("{}-{}", at(first), at(last)));
     }
-    return text.empty() ? "none" : text;
+    return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string fact_text(const json& fact) {

@@ -185,7 +185,7 @@ std::vector<PixelFact> StencilCap::explain(const PixelTrace& trace) const {
                        m_zcull ? "The fragments under min_alpha, or behind the depth that the coarse pass left."
                                : "The fragments under min_alpha, which use up no layer."),
         fragments_fact("cut", cut, "The fragments behind the cap."),
-        number_fact("stencil", counted, "How many fragments the stencil counted; at `layers` the pixel is full.")};
+        number_fact("stencil", counted, "How many fragments the stencil counted.")};
     add_accumulated(facts, draws.color);
     const bool filled = m_frame > 1 && counted >= m_layers;
     m_gl.BindTextureUnit(first_method_texture_unit, m_previous.id());

@@ -2,6 +2,8 @@
 // section 3.2. A fragment is either dropped or drawn as if it were opaque, with depth test and depth writes.
 // Good at: no sorting, no blending, intersections right per pixel. Bad at: translucency is lost, edges are jagged.
 // Parameters: `reference` 0..1, 0.5: the least alpha that is drawn.
+#include <algorithm>
+
 #include "renderer/methods/method.h"
 
 namespace sheer {
@@ -30,13 +32,14 @@ class AlphaTest : public Method {
 
     std::vector<PixelFact> explain(const PixelTrace& trace) const override {
         const PixelTrace::Draws draws = trace.of(m_program);
+        std::vector<std::size_t> dropped = draws.failed();
+        std::ranges::sort(dropped);
         return {fragment_fact("shown", draws.last_passed(),
                               "The fragment that is seen, the last that was drawn; none if what is behind is seen."),
                 fragments_fact("drawn", draws.passed(),
                                "The fragments that passed the alpha and the depth test, in the order of submission; "
                                "each hides the ones before it."),
-                fragments_fact("dropped", draws.failed(),
-                               "The fragments of too little alpha, or behind one drawn before.")};
+                fragments_fact("dropped", dropped, "The fragments of too little alpha, or behind one drawn before.")};
     }
 
   private:

@@ -115,7 +115,7 @@ TEST(Explanation, DepthMarksTellWhatCameBeforeTheMark) {
 TEST(Explanation, AnAlphaTestTellsWhatIsShown) {
     const Explained test(four, {{"id", "alpha_test"}, {"reference", 0.6}});
     EXPECT_EQ(test["drawn"], json({4, 2}));
-    EXPECT_EQ(test["dropped"], json({3, 1}));
+    EXPECT_EQ(test["dropped"], json({1, 3}));
     EXPECT_EQ(test["shown"], 2);
     expect_near(test.value(), color_of(four[3]));
     EXPECT_EQ(Explained(four, {{"id", "alpha_test"}, {"reference", 0.95}})["shown"], json());

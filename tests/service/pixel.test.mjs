@@ -70,7 +70,19 @@ test("a pixel's fragments, their weights and the methods' values are told", () =
   // Over white come blue, red, yellow and green, half of each.
   near(unsorted.value, [0.4375, 0.8125, 0.125], 2.5 / 255, "unsorted");
 
+  const fact = (method, name) => method.explanation.find((one) => one.name === name)?.value;
+  assert.deepEqual(fact(b2f, "blended"), [4, 3, 2, 1]);
+  // As submitted: blue, red, yellow, green.
+  assert.deepEqual(fact(unsorted, "blended"), [2, 1, 4, 3]);
+  assert.deepEqual([fact(early, "blended"), fact(early, "discarded"), fact(early, "saturated_at")], [[1, 2, 3, 4], [], null]);
+  assert.ok(Math.abs(fact(early, "transmittance") - 1 / 16) <= 2 / 255);
+  for (const method of pixel.methods) {
+    near(method.explained_value, method.value, 1e-6, "drawn again");
+    assert.equal(method.explanation_reason, undefined);
+  }
+
   const first = await pixel_at("x=3&y=2");
+  assert.deepEqual([fact(first.methods[1], "discarded"), fact(first.methods[1], "saturated_at")], [[2, 3, 4], 1]);
   assert.deepEqual(first.point, { "/methods/1/threshold": 0.6 });
   assert.deepEqual([first.methods[1].shaded, first.methods[1].needed, first.methods[1].saturated_at], [1, 1, 1]);
   near(first.methods[1].value, [0.5 + 0.5, 0.5, 0.5], 1.5 / 255, "only the first, over white");

@@ -158,7 +158,7 @@ TEST_F(PixelReportTest, MethodsExplainTheirValues) {
                                 color_fact("color", {0.5f, 0, 1}, "That."),
                                 fragment_fact("shown", 2, "Seen."),
                                 fragment_fact("marked", std::nullopt, "Marked."),
-                                fragments_fact("blended", {1, 2, 3, 7, 9, 10}, "In order."),
+                                fragments_fact("blended", {1, 2, 3, 7, 9, 10, 6, 5, 4, 3}, "In order."),
                                 fragments_fact("cut", {}, "Not drawn."),
                                 {"samples", "samples", json::array({sample}), "Of each."}},
                       .value = Rgb{0.5, 0.25, 0.3}}};
@@ -174,7 +174,7 @@ TEST_F(PixelReportTest, MethodsExplainTheirValues) {
     const std::string table = pixel_table(pixel);
     for (const char* line :
          {"alpha_sum        0.75\n", "color            0.500000 0.000000 1.000000\n", "shown            2\n",
-          "marked           none\n", "blended          1-3, 7, 9, 10\n", "cut              none\n",
+          "marked           none\n", "blended          1-3, 7, 9, 10, 6-3\n", "cut              none\n",
           "samples          opaque: 0.250000 0.500000 0.750000\n", "The sum.\n"})
         EXPECT_THAT(table, HasSubstr(line));
 }

@@ -50,6 +50,17 @@ page_test("a click on a picture shows the fragments under it and the methods' va
     labels,
     expected.methods.map((method) => method.label),
   );
+  // Each method tells how it came to its value, in as many sentences as the service has of it.
+  const explained = await page.$$eval(".pixel-explained [data-label]", (sections) =>
+    sections.map((section) => [section.dataset.label, section.querySelectorAll("dl > div").length]),
+  );
+  assert.deepEqual(
+    explained,
+    expected.methods
+      .filter((method) => method.explanation?.length > 0)
+      .map((method) => [method.label, method.explanation.length]),
+  );
+  assert.ok(explained.length > 0);
   assert.ok((await page.locator("table.pixel-stack .swatch").count()) === expected.fragments.length + 1);
   await assert_accessible(page, "a pixel");
 
