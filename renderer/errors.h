@@ -1,6 +1,8 @@
 #pragma once
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace sheer {
@@ -11,13 +13,27 @@ struct FieldError {
     std::string detail;   ///< what is wrong and what would be right
 };
 
+/// So many wrong fields are told one by one; the others are only counted.
+inline constexpr std::size_t max_told_errors = 100;
+
+/// Adds an error to `errors`. `detail` makes its text, and is not called for one that is only counted: what is wrong in
+/// a hundred thousand places costs no hundred thousand texts.
+template <typename Detail>
+void add_error(std::vector<FieldError>& errors, std::string pointer, const Detail& detail) {
+    errors.push_back({std::move(pointer), errors.size() < max_told_errors ? detail() : std::string()});
+}
+
 /// The caller's mistake: every wrong field at once. HTTP 422, exit code 2.
 class SpecError : public std::runtime_error {
   public:
     explicit SpecError(std::vector<FieldError> errors);
+    /// The first max_told_errors of them.
     const std::vector<FieldError>& errors() const { return m_errors; }
+    /// Of all.
+    std::size_t count() const { return m_count; }
 
   private:
+    std::size_t m_count;
     std::vector<FieldError> m_errors;
 };
 
@@ -29,6 +45,14 @@ class Unsupported : public std::runtime_error {
 /// Rendering failed: a shader that does not compile, a GL error of high severity, memory that ran out. Exit code 3.
 class RenderError : public std::runtime_error {
     using std::runtime_error::runtime_error;
+};
+
+/// A file could not be written. The same comparison may succeed when the disk does.
+class WriteError : public std::system_error {
+  public:
+    WriteError(int error_number, const std::string& path)
+        : std::system_error(error_number, std::generic_category(), "cannot write " + path) {}
+    bool is_full() const { return code() == std::errc::no_space_on_device; }
 };
 
 /// The caller asked to stop.

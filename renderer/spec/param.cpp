@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::size_t max_quoted_bytes = 80, max_asset_name_bytes = 1024;
 
+json default_of(const Param& param);
+
 std::string kind_name(Param::Kind kind) {
     switch (kind) {
         case Param::Kind::number:
@@ -41,10 +43,11 @@ std::string kind_name(Param::Kind kind) {
     throw std::logic_error("unknown kind of parameter");
 }
 
+/// The value as JSON, shortened; of a long list or object only what it is, since nobody would read it.
 std::string quoted(const json& value) {
-    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-    if (text.size() > max_quoted_bytes) text = text.substr(0, max_quoted_bytes) + "...";
-    return text;
+    if (value.is_structured() && value.size() > max_quoted_bytes / 2)
+        return fmt::format("an {} of {} entries", value.type_name(), value.size());
+    return shortened_json(value, max_quoted_bytes);
 }
 
 bool in_range(const Param& param, double value) {
@@ -106,8 +109,8 @@ class ValueReader {
 
   private:
     json wrong(const std::string& what, const json& value) {
-        m_errors.push_back({m_pointer, fmt::format("{}, not {}", what, quoted(value))});
-        return m_param.default_value;
+        add_error(m_errors, m_pointer, [&] { return fmt::format("{}, not {}", what, quoted(value)); });
+        return default_of(m_param);
     }
 
     json number(const json& value) {
@@ -159,10 +162,11 @@ class ValueReader {
             const bool right = (m_param.whole ? is_whole(value[i]) : value[i].is_number()) &&
                                in_range(m_param, value[i].get<double>());
             if (!right) {
-                m_errors.push_back({fmt::format("{}/{}", m_pointer, i),
-                                    fmt::format("must be a {} {}, not {}", m_param.whole ? "whole number" : "number",
-                                                range_text(m_param), quoted(value[i]))});
-                return m_param.default_value;
+                add_error(m_errors, fmt::format("{}/{}", m_pointer, i), [&] {
+                    return fmt::format("must be a {} {}, not {}", m_param.whole ? "whole number" : "number",
+                                       range_text(m_param), quoted(value[i]));
+                });
+                return default_of(m_param);
             }
             read_values.push_back(value[i].get<double>());
         }
@@ -177,8 +181,10 @@ class ValueReader {
     json list(const json& value) {
         if (!value.is_array()) return wrong("must be an array", value);
         if (value.size() < m_param.min_length || value.size() > m_param.max_length) {
-            m_errors.push_back({m_pointer, fmt::format("must have {} to {} entries, not {}", m_param.min_length,
-                                                       m_param.max_length, value.size())});
+            add_error(m_errors, m_pointer, [&] {
+                return fmt::format("must have {} to {} entries, not {}", m_param.min_length, m_param.max_length,
+                                   value.size());
+            });
             return json::array();
         }
         json entries = json::array();
@@ -187,7 +193,7 @@ class ValueReader {
             if (value[i].is_object()) {
                 entries.push_back(read_fields(value[i], entry_pointer, m_param.fields, m_errors));
             } else {
-                m_errors.push_back({entry_pointer, "must be an object, not " + quoted(value[i])});
+                add_error(m_errors, entry_pointer, [&] { return "must be an object, not " + quoted(value[i]); });
             }
         }
         return entries;
@@ -198,6 +204,7 @@ class ValueReader {
     std::vector<FieldError>& m_errors;
 };
 
+/// Of an object that must be there, also of its fields: whoever looks into it finds what he expects.
 json default_of(const Param& param) {
     if (param.kind == Param::Kind::object && param.default_value.is_null() && !param.optional) {
         std::vector<FieldError> ignored;
@@ -363,15 +370,15 @@ json read_fields(const json& object, const std::string& pointer, const std::vect
         const std::string field_pointer = pointer + "/" + pointer_token(param.name);
         if (found == object.end() || (found->is_null() && param.optional)) {
             result[param.name] = default_of(param);
-            if (!may_be_absent(param)) errors.push_back({field_pointer, "is missing: " + param.summary});
+            if (!may_be_absent(param)) add_error(errors, field_pointer, [&] { return "is missing: " + param.summary; });
         } else {
             result[param.name] = ValueReader(param, field_pointer, errors).read(*found);
         }
     }
     for (const auto& [key, value] : object.items()) {
         if (std::ranges::find(fields, key, &Param::name) != fields.end()) continue;
-        errors.push_back({pointer + "/" + pointer_token(key),
-                          fmt::format("is not a known field; known are {}", fmt::join(names_of(fields), ", "))});
+        add_error(errors, pointer + "/" + pointer_token(key),
+                  [&] { return fmt::format("is not a known field; known are {}", fmt::join(names_of(fields), ", ")); });
     }
     return result;
 }
@@ -421,6 +428,15 @@ std::vector<AssetReference> find_assets(const json& object, const std::string& p
         }
     }
     return found;
+}
+
+std::string shortened_json(const json& value, std::size_t max_bytes) {
+    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    if (text.size() <= max_bytes) return text;
+    // Not within a UTF-8 character.
+    std::size_t end = max_bytes;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+    return text.substr(0, end) + "...";
 }
 
 std::string pointer_token(const std::string& token) {

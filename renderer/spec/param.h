@@ -77,6 +77,9 @@ struct AssetReference {
 std::vector<AssetReference> find_assets(const nlohmann::json& object, const std::string& pointer,
                                         const std::vector<Param>& fields);
 
+/// The value as JSON text, cut to `max_bytes` with "..." behind them.
+std::string shortened_json(const nlohmann::json& value, std::size_t max_bytes);
+
 /// `token` escaped for a JSON pointer (RFC 6901).
 std::string pointer_token(const std::string& token);
 

@@ -9,6 +9,7 @@
 #include "renderer/metrics/metric.h"
 #include "renderer/scene/glsl_shading.h"
 #include "renderer/scene/scene_info.h"
+#include "renderer/spec/json_text.h"
 #include "renderer/spec/names.h"
 #include "renderer/spec/param.h"
 #include "renderer/spec/suites.h"
@@ -20,6 +21,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t max_methods = 64, max_tags = 32, max_text_bytes = 200;
+constexpr std::size_t max_point_bytes = 500;  // of a point in the text of an error
 
 Param optional_number(std::string name, std::string summary) {
     Param param{.name = std::move(name), .summary = std::move(summary)};
@@ -99,7 +101,9 @@ PixelFormat pixel_format(const std::string& name) {
 
 class SpecReader {
   public:
-    explicit SpecReader(const AssetRule& rule) : m_rule(rule) {}
+    /// `known_scene`: a spec whose scene was read already and is the one of this document; null for none.
+    explicit SpecReader(const AssetRule& rule, const Spec* known_scene = nullptr)
+        : m_rule(rule), m_known_scene(known_scene) {}
 
     Spec read(const json& document) {
         if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "a spec must be a JSON object"}});
@@ -129,7 +133,9 @@ class SpecReader {
     }
 
   private:
-    void error(const std::string& pointer, const std::string& detail) { m_errors.push_back({pointer, detail}); }
+    void error(const std::string& pointer, const std::string& detail) {
+        add_error(m_errors, pointer, [&] { return detail; });
+    }
 
     void check_tags(const json& tags) {
         if (!tags.is_object() || tags.size() > max_tags) {
@@ -151,6 +157,10 @@ class SpecReader {
     }
 
     void read_scene(const json& document, Spec& spec) {
+        if (m_known_scene != nullptr) {
+            spec.scene_type = m_known_scene->scene_type;
+            return;
+        }
         if (!document.contains("scene")) return error("/scene", "is missing: an object with type and parameters");
         json scene = document["scene"];
         if (!scene.is_object()) return error("/scene", "must be an object with type and parameters");
@@ -278,27 +288,49 @@ class SpecReader {
         }
     }
 
-    /// Every point is read as a spec of its own, so that a value is refused where it stands in the sweep.
+    /// Every point is read as a spec of its own, so that a value is refused where it stands in the sweep. A scene in
+    /// which nothing is swept is the same at all points and is not read again.
     void read_points(Spec& spec) {
         const json& sweep = spec.normalised["sweep"];
         spec.points = read_sweep(sweep, spec.normalised, m_errors);
         if (!m_errors.empty() || sweep.empty()) return;
+        const bool scene_is_swept = std::ranges::any_of(spec.points, reaches_into_scene);
+        json document = spec.normalised;
+        document.erase("sweep");
+        document.erase("checks");
+        if (!scene_is_swept) document["scene"] = nullptr;
+        if (json_weight(document) * spec.points.size() > max_sweep_weight)
+            return error("/sweep", "must have fewer points for a spec that is so large");
         for (const SweepPoint& point : spec.points) {
             try {
-                SpecReader(m_rule).read(at_point(spec.normalised, point));
+                SpecReader(m_rule, scene_is_swept ? nullptr : &spec).read(at_point(document, point));
             } catch (const SpecError& wrong) {
-                for (const FieldError& field : wrong.errors()) {
-                    const std::string pointer = sweep_pointer(sweep, field.pointer);
-                    const std::string detail = fmt::format("at {}: {} {}", point.dump(), field.pointer, field.detail);
-                    if (std::ranges::none_of(m_errors, [&](const FieldError& known) { return known.detail == detail; }))
-                        error(pointer, detail);
-                }
+                add_errors_at(point, wrong, sweep);
             }
+            // Enough to go by, and a limit to the work that one spec can make.
+            if (m_errors.size() >= max_told_errors) return;
+        }
+    }
+
+    static bool reaches_into_scene(const SweepPoint& point) {
+        for (const auto& [field, value] : point.items())
+            if (field.starts_with("/scene/")) return true;
+        return false;
+    }
+
+    void add_errors_at(const SweepPoint& point, const SpecError& wrong, const json& sweep) {
+        for (const FieldError& field : wrong.errors()) {
+            const std::string detail =
+                fmt::format("at {}: {} {}", shortened_json(point, max_point_bytes), field.pointer, field.detail);
+            if (std::ranges::none_of(m_errors, [&](const FieldError& known) { return known.detail == detail; }))
+                error(sweep_pointer(sweep, field.pointer), detail);
         }
     }
 
     void read_checks(Spec& spec) {
         json& checks = spec.normalised["checks"];
+        if (checks.empty()) return;
+        const std::vector<std::string> names = metric_names();
         for (std::size_t i = 0; i < checks.size(); ++i) {
             const std::string pointer = fmt::format("/checks/{}", i);
             json& check = checks[i];
@@ -317,6 +349,7 @@ class SpecReader {
     }
 
     const AssetRule& m_rule;
+    const Spec* m_known_scene;
     std::vector<FieldError> m_errors;
 };
 
@@ -328,12 +361,9 @@ Spec parse_spec(const json& document, const AssetRule& rule) {
 
 Spec parse_spec_text(const std::string& text) {
     try {
-        return parse_spec(json::parse(text));
-    } catch (const json::parse_error& error) {
-        // The library's text begins with the name of its exception in brackets.
-        const std::string message = error.what();
-        const std::string detail = message.substr(std::min(message.find("] ") + 2, message.size()));
-        throw SpecError(std::vector<FieldError>{{"", "is not JSON: " + detail}});
+        return parse_spec(read_json(text));
+    } catch (const NotJson& error) {
+        throw SpecError(std::vector<FieldError>{{"", std::string("is not JSON: ") + error.what()}});
     }
 }
 
@@ -379,54 +409,6 @@ json spec_schema() {
 
 json describe_spec_fields() {
     return to_json(spec_fields());
-}
-
-json describe_methods() {
-    json all = json::array();
-    for (const MethodInfo& method : all_methods()) {
-        all.push_back(
-            {{"id", method.id},
-             {"name", method.name},
-             {"kind", method.kind},
-             {"summary", method.summary},
-             {"paper", method.paper},
-             {"good_at", method.good_at},
-             {"bad_at", method.bad_at},
-             {"memory", method.memory},
-             {"needs_sorting", method.needs_sorting},
-             {"parameters", to_json(method.parameters)},
-             {"no_metrics_reason", method.no_metrics_reason.empty() ? json() : json(method.no_metrics_reason)}});
-    }
-    return all;
-}
-
-json describe_scenes() {
-    json all = json::array();
-    for (const SceneInfo& scene : all_scenes()) {
-        all.push_back({{"id", scene.id},
-                       {"name", scene.name},
-                       {"summary", scene.summary},
-                       {"source", scene.source},
-                       {"parameters", to_json(scene.all_parameters())}});
-    }
-    return all;
-}
-
-json describe_metrics() {
-    json all = json::array();
-    for (const MetricInfo& metric : all_metrics()) {
-        json fields = json::array();
-        for (const MetricField& field : metric.fields)
-            fields.push_back(
-                {{"name", field.name}, {"unit", field.unit}, {"range", field.range}, {"summary", field.summary}});
-        all.push_back({{"id", metric.id},
-                       {"name", metric.name},
-                       {"summary", metric.summary},
-                       {"source", metric.source},
-                       {"picture", metric.picture},
-                       {"fields", fields}});
-    }
-    return all;
 }
 
 }  // namespace sheer

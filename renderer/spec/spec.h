@@ -65,7 +65,8 @@ using AssetRule = std::function<std::string(const AssetReference& reference)>;
 
 /// Throws SpecError with every wrong field, those that `rule` objects to among them.
 Spec parse_spec(const nlohmann::json& document, const AssetRule& rule = {});
-/// The same from text; text that is not JSON gives one error at pointer "" that says where it breaks.
+/// The same from text; text that is not JSON gives one error at pointer "" that says where it breaks, an object that
+/// has a key twice one at that key.
 Spec parse_spec_text(const std::string& text);
 
 /// The spec of one point of its sweep, without sweep and checks.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace sheer {
 
@@ -10,12 +11,31 @@ using nlohmann::json;
 
 namespace {
 
+// Of all points together, which are kept: some tens of megabytes.
+constexpr std::size_t max_points_weight = 500'000;
+
 constexpr const char* shape = "must be an object with a pointer and an array of values, or with an array of points";
 
 /// Where a sweep may reach; what is no parameter of a rendering is not to be swept.
 bool is_parameter(const std::string& pointer) {
     if (pointer == "/scene/type" || pointer.ends_with("/id") || pointer.ends_with("/label")) return false;
     return pointer.starts_with("/scene/") || pointer.starts_with("/image/") || pointer.starts_with("/methods/");
+}
+
+/// The one of `fields` that is `field`, holds it or is a part of it; "" for none. A pointer that is well-formed spells
+/// each field in one way only.
+std::string overlapping(const std::set<std::string>& fields, const std::string& field) {
+    for (std::size_t end = field.find('/', 1); end != std::string::npos; end = field.find('/', end + 1))
+        if (fields.contains(field.substr(0, end))) return field.substr(0, end);
+    if (fields.contains(field)) return field;
+    const auto part = fields.lower_bound(field + "/");
+    return part != fields.end() && part->starts_with(field + "/") ? *part : std::string();
+}
+
+std::size_t json_weight_of(const std::vector<SweepPoint>& points) {
+    std::size_t weight = 0;
+    for (const SweepPoint& point : points) weight += json_weight(point);
+    return weight;
 }
 
 class SweepReader {
@@ -30,8 +50,14 @@ class SweepReader {
         }
         for (std::size_t i = 0; i < sweep.size(); ++i) {
             const std::vector<SweepPoint> axis = read_axis(sweep[i], fmt::format("/sweep/{}", i));
+            m_taken.merge(m_taken_here);
+            m_taken_here.clear();
             if (points.size() * axis.size() > max_sweep_points) {
                 error("/sweep", fmt::format("must have at most {} points in all", max_sweep_points));
+                return {json::object()};
+            }
+            if (json_weight_of(points) * axis.size() + json_weight_of(axis) * points.size() > max_points_weight) {
+                error("/sweep", "must not repeat values that are so large at so many points");
                 return {json::object()};
             }
             points = product(points, axis);
@@ -40,7 +66,9 @@ class SweepReader {
     }
 
   private:
-    void error(const std::string& pointer, const std::string& detail) { m_errors.push_back({pointer, detail}); }
+    void error(const std::string& pointer, const std::string& detail) {
+        add_error(m_errors, pointer, [&] { return detail; });
+    }
 
     static std::vector<SweepPoint> product(const std::vector<SweepPoint>& slow, const std::vector<SweepPoint>& fast) {
         std::vector<SweepPoint> all;
@@ -79,7 +107,15 @@ class SweepReader {
     void read_point(const json& point, const std::string& pointer, std::vector<SweepPoint>& points) {
         if (!point.is_object() || point.empty()) return error(pointer, "must be an object of values by their pointers");
         bool right = true;
-        for (const auto& [field, value] : point.items()) right = check_field(field, pointer) && right;
+        std::set<std::string> own;
+        for (const auto& [field, value] : point.items()) {
+            right = check_field(field, pointer) && right;
+            if (const std::string other = overlapping(own, field); !other.empty()) {
+                error(pointer, fmt::format("\"{}\" overlaps \"{}\"", field, other));
+                right = false;
+            }
+            own.insert(field);
+        }
         if (right) points.push_back(point);
     }
 
@@ -87,8 +123,9 @@ class SweepReader {
         std::string detail;
         if (!is_parameter(field)) {
             detail = "must point to a parameter in /scene, /image or /methods/N";
-        } else if (std::ranges::find(m_taken, field) != m_taken.end() && pointer.ends_with("/pointer")) {
-            detail = "is swept already";
+        } else if (const std::string taken = overlapping(m_taken, field); !taken.empty()) {
+            detail =
+                taken == field ? "is swept already" : fmt::format("overlaps \"{}\", which is swept already", taken);
         } else {
             try {
                 if (!m_document.contains(json::json_pointer(field))) detail = "there is no such field";
@@ -96,14 +133,15 @@ class SweepReader {
                 detail = "is not a JSON pointer (RFC 6901)";
             }
         }
-        m_taken.push_back(field);
+        if (detail.empty()) m_taken_here.insert(field);
         if (!detail.empty()) error(pointer, fmt::format("\"{}\" {}", field, detail));
         return detail.empty();
     }
 
     const json& m_document;
     std::vector<FieldError>& m_errors;
-    std::vector<std::string> m_taken;
+    std::set<std::string> m_taken;       ///< by the axes before
+    std::set<std::string> m_taken_here;  ///< by this axis, whose points may set one field each
 };
 
 }  // namespace
@@ -116,7 +154,8 @@ std::string sweep_pointer(const json& sweep, const std::string& field_pointer) {
     for (std::size_t i = 0; i < sweep.size(); ++i) {
         const json& axis = sweep[i];
         const auto reaches = [&](const std::string& field) { return field_pointer.starts_with(field); };
-        if (axis.contains("pointer") && reaches(axis["pointer"])) return fmt::format("/sweep/{}", i);
+        if (axis.contains("pointer") && reaches(axis["pointer"].get_ref<const std::string&>()))
+            return fmt::format("/sweep/{}", i);
         for (const json& point : axis.value("points", json::array()))
             for (const auto& [field, value] : point.items())
                 if (reaches(field)) return fmt::format("/sweep/{}", i);
@@ -131,6 +170,14 @@ std::string describe_point(const SweepPoint& point) {
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", field.substr(field.rfind('/') + 1), shown);
     }
     return text;
+}
+
+std::size_t json_weight(const json& value) {
+    if (value.is_string()) return 1 + value.get_ref<const std::string&>().size() / 32;
+    std::size_t weight = 1;
+    if (value.is_structured())
+        for (const json& inner : value) weight += json_weight(inner);
+    return weight;
 }
 
 bool lies_at(const SweepPoint& point, const json& at) {

@@ -95,6 +95,79 @@ TEST(Sweep, RefusesWrongShapes) {
     }
 }
 
+TEST(Sweep, RefusesToSetAFieldTwice) {
+    const json layers = {{"scene", {{"type", "layers"}, {"layers", {{{"depth", 0.5}}, {{"depth", 0.25}}}}}},
+                         {"methods", {"b2f", {{"id", "f2bd"}}}}};
+    const auto point = [](const json& fields) { return json{{"points", json::array({fields})}}; };
+    const std::vector<std::pair<json, std::string>> cases = {
+        {json::array({axis("/scene/layers/0/alpha", {0.5}), point({{"/scene/layers/0/alpha", 0.1}})}),
+         "/sweep/1/points/0"},
+        {json::array({point({{"/scene/layers/0/alpha", 0.1}}), axis("/scene/layers/0/alpha", {0.5})}),
+         "/sweep/1/pointer"},
+        {json::array({point({{"/image/width", 8}}), point({{"/image/height", 8}, {"/image/width", 9}})}),
+         "/sweep/1/points/0"},
+        // One of the two holds the other one.
+        {json::array({axis("/scene/layers", {json::array({{{"depth", 0.5}}})}), point({{"/scene/layers/0/alpha", 1}})}),
+         "/sweep/1/points/0"},
+        {json::array({axis("/methods/1/threshold", {0.1}), axis("/methods/1", {"b2f"})}), "/sweep/1/pointer"},
+        {json::array({point({{"/scene/layers/1", {{"depth", 0.1}}}, {"/scene/layers/1/color/0", 0.2}})}),
+         "/sweep/0/points/0"},
+    };
+    for (const auto& [sweep, pointer] : cases) {
+        SCOPED_TRACE(sweep.dump());
+        json spec = layers;
+        spec["sweep"] = sweep;
+        const auto errors = errors_of(spec);
+        ASSERT_EQ(errors.size(), 1u);
+        EXPECT_EQ(errors[0].pointer, pointer);
+        EXPECT_THAT(errors[0].detail, testing::AnyOf(HasSubstr("is swept already"), HasSubstr("overlaps")));
+    }
+    // Names of which one only begins like the other are two fields.
+    json neighbours = layers;
+    neighbours["scene"]["layers"] = json::array();
+    for (int i = 0; i < 12; ++i) neighbours["scene"]["layers"].push_back({{"depth", 0.5}});
+    neighbours["sweep"] = json::array({axis("/scene/layers/1/alpha", {0.5}), point({{"/scene/layers/11/alpha", 0.1}})});
+    EXPECT_TRUE(errors_of(neighbours).empty());
+}
+
+TEST(Sweep, OfOneFieldLeavesALargeSceneAlone) {
+    json spec = {{"scene", {{"type", "layers"}, {"layers", json::array()}}}, {"methods", {"b2f"}}};
+    for (int i = 0; i < 4096; ++i) spec["scene"]["layers"].push_back({{"depth", 0.5}});
+    json widths = json::array();
+    for (int i = 1; i <= 256; ++i) widths.push_back(i);
+    spec["sweep"] = json::array({axis("/image/width", widths)});
+    const Spec read = parse_spec(spec);
+    EXPECT_EQ(read.points.size(), 256u);
+    EXPECT_EQ(spec_at(read, read.points[7]).scene["layers"].size(), 4096u);
+    // A point that is wrong is found all the same.
+    spec["sweep"][0]["values"][200] = 0;
+    EXPECT_THAT(errors_of(spec).at(0).detail, HasSubstr("/image/width"));
+}
+
+TEST(Sweep, IsBoundedInWhatItRepeats) {
+    json spec = {{"scene", {{"type", "layers"}, {"layers", json::array()}}}, {"methods", {"b2f"}}};
+    for (int i = 0; i < 4096; ++i) spec["scene"]["layers"].push_back({{"depth", 0.5}});
+    json alphas = json::array();
+    for (int i = 1; i <= 256; ++i) alphas.push_back(i / 256.0);
+    spec["sweep"] = json::array({axis("/scene/layers/9/alpha", alphas)});
+    const auto errors = errors_of(spec);
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_EQ(errors[0].pointer, "/sweep");
+    // One large value beside many points.
+    json large = document(json::array({axis("/scene/shading", json::array({std::string(2'000'000, 'x')})),
+                                       axis("/image/width", json(std::vector<int>(256, 8)))}));
+    ASSERT_EQ(errors_of(large).size(), 1u);
+    EXPECT_EQ(errors_of(large)[0].pointer, "/sweep");
+    EXPECT_EQ(json_weight(json::parse(R"({"a": [1, 2], "b": "text"})")), 5u);
+    EXPECT_EQ(json_weight(std::string(64, 'x')), 3u);
+}
+
+TEST(Sweep, TellsAHundredErrorsAndCountsTheRest) {
+    json values = json::array();
+    for (int i = 0; i < 256; ++i) values.push_back(-i);
+    EXPECT_EQ(errors_of(document(json::array({axis("/image/width", values)}))).size(), max_told_errors);
+}
+
 TEST(Sweep, ChecksHoldAtThePointsTheyName) {
     json spec = document(json::array({axis("/scene/count", {1, 16})}));
     spec["checks"] =
