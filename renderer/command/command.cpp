@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -156,10 +157,11 @@ void clear_progress_line() {
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
+    errno = 0;
     std::ofstream file(path, std::ios::binary);
     file << text;
     file.close();
-    if (!file) throw std::runtime_error("cannot write " + path.string());
+    if (!file) throw WriteError(errno == 0 ? EIO : errno, path.string());
 }
 
 std::string read_text(const std::filesystem::path& path) {

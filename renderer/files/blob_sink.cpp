@@ -1,8 +1,9 @@
 #include "renderer/files/blob_sink.h"
 
+#include <cerrno>
 #include <fstream>
-#include <stdexcept>
 
+#include "renderer/errors.h"
 #include "renderer/files/picture_file.h"
 #include "renderer/report/report.h"
 
@@ -11,10 +12,11 @@ namespace sheer {
 namespace {
 
 void write_file(const std::filesystem::path& path, const std::string& bytes) {
+    errno = 0;
     std::ofstream file(path, std::ios::binary);
     file << bytes;
     file.close();
-    if (!file) throw std::runtime_error("cannot write " + path.string());
+    if (!file) throw WriteError(errno == 0 ? EIO : errno, path.string());
 }
 
 }  // namespace

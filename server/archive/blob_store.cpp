@@ -2,13 +2,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <openssl/evp.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "renderer/report/report.h"
 
@@ -21,8 +27,13 @@ namespace {
 constexpr const char* temporary_suffix = ".tmp-XXXXXX";
 constexpr std::string_view temporary_mark = ".tmp-";
 
+bool means_full(int error) {
+    return error == ENOSPC || error == EDQUOT;
+}
+
 [[noreturn]] void fail(const std::string& what, const fs::path& path) {
-    throw StoreError(fmt::format("{} {}: {}", what, path.string(), std::strerror(errno)));
+    if (means_full(errno)) throw StoreFull(fmt::format("the archive's disk is full: {}", std::strerror(errno)));
+    throw DiskError(fmt::format("{} {}: {}", what, path.string(), std::strerror(errno)));
 }
 
 /// An open file descriptor of `path`.
@@ -41,6 +52,15 @@ class Descriptor {
             if (count < 0 && errno == EINTR) continue;
             if (count < 0) fail("cannot write", m_path);
             done += static_cast<std::size_t>(count);
+        }
+    }
+
+    /// Returns how many bytes were read, 0 at the end.
+    std::size_t read_some(std::span<char> bytes) {
+        while (true) {
+            const ssize_t count = read(m_descriptor, bytes.data(), bytes.size());
+            if (count >= 0) return static_cast<std::size_t>(count);
+            if (errno != EINTR) fail("cannot read", m_path);
         }
     }
 
@@ -79,8 +99,21 @@ class TemporaryFile {
 void make_folder(const fs::path& folder) {
     std::error_code error;
     const bool made = fs::create_directories(folder, error);
-    if (error) throw StoreError(fmt::format("cannot make {}: {}", folder.string(), error.message()));
+    errno = error.value();
+    if (error) fail("cannot make", folder);
     if (made && folder.has_parent_path()) sync_folder(folder.parent_path());
+}
+
+bool is_whole(const fs::path& place, const std::string& sha256) {
+    std::error_code none;
+    if (!fs::is_regular_file(place, none)) return false;
+    try {
+        if (sha256_of_file(place) == sha256) return true;
+        spdlog::error("the file {} is damaged and is written again", place.string());
+    } catch (const StoreError& error) {
+        spdlog::error("{}; it is written again", error.what());
+    }
+    return false;
 }
 
 }  // namespace
@@ -94,10 +127,10 @@ fs::path blob_path(const fs::path& folder, const std::string& sha256) {
     return folder / sha256.substr(0, 2) / sha256;
 }
 
-void BlobStore::put(const std::string& sha256, const std::string& bytes) {
+bool BlobStore::put(const std::string& sha256, const std::string& bytes) {
     if (sha256_hex(bytes) != sha256) throw StoreError("the bytes of blob " + sha256 + " have another hash");
     const fs::path place = blob_path(m_folder, sha256);
-    if (fs::exists(place)) return;
+    if (is_whole(place, sha256)) return false;
     make_folder(place.parent_path());
     std::string temporary_path = place.string() + temporary_suffix;
     Descriptor file(mkostemp(temporary_path.data(), O_CLOEXEC), temporary_path);
@@ -106,6 +139,20 @@ void BlobStore::put(const std::string& sha256, const std::string& bytes) {
     file.sync();
     temporary.rename_to(place);
     sync_folder(place.parent_path());
+    return true;
+}
+
+fs::path BlobStore::find_whole(const std::string& sha256) const {
+    const auto path = find(sha256);
+    if (!path) throw DamagedFile(fmt::format("the file {} is missing", sha256));
+    std::string actual;
+    try {
+        actual = sha256_of_file(*path);
+    } catch (const StoreError&) {
+        throw DamagedFile(fmt::format("the file {} cannot be read", sha256));
+    }
+    if (actual != sha256) throw DamagedFile(fmt::format("the bytes of the file {} have another hash", sha256));
+    return *path;
 }
 
 std::optional<fs::path> BlobStore::find(const std::string& sha256) const {
@@ -131,6 +178,20 @@ void BlobStore::remove_leftovers(std::chrono::seconds age) {
     }
 }
 
+std::string sha256_of_file(const fs::path& path) {
+    Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC), path);
+    const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+    bool right = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+    std::vector<char> bytes(1 << 18);
+    for (std::size_t count; right && (count = file.read_some(bytes)) > 0;)
+        right = EVP_DigestUpdate(context.get(), bytes.data(), count) == 1;
+    std::array<unsigned char, 32> digest{};
+    if (!right || EVP_DigestFinal_ex(context.get(), digest.data(), nullptr) != 1) throw StoreError("SHA-256 failed");
+    std::string text;
+    for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
+    return text;
+}
+
 bool is_sha256(const std::string& text) {
     return text.size() == 64 &&
            std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
@@ -145,7 +206,7 @@ std::string read_file(const fs::path& path, std::uintmax_t max_bytes) {
     std::string bytes(size, '\0');
     std::ifstream file(path, std::ios::binary);
     file.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (!file) throw StoreError("cannot read " + path.string());
+    if (!file) throw DiskError("cannot read " + path.string());
     return bytes;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
+#include <sqlite3.h>
 
 #include <mutex>
 #include <string>
@@ -16,6 +17,10 @@ auto guarded(std::mutex& mutex, Work&& work) {
     try {
         return work();
     } catch (const SQLite::Exception& error) {
+        // The second is what a log's index says that cannot grow.
+        if (error.getErrorCode() == SQLITE_FULL || error.getExtendedErrorCode() == SQLITE_IOERR_SHMSIZE)
+            throw StoreFull("the archive's disk is full");
+        if (error.getErrorCode() == SQLITE_IOERR) throw DiskError(std::string("archive: ") + error.what());
         throw StoreError(std::string("archive: ") + error.what());
     }
 }

@@ -34,11 +34,14 @@ LeaseState read_state(SQLite::Database& database, const Lease& lease) {
 }  // namespace
 
 std::optional<Lease> SqliteStore::lease(const std::string& owner) {
+    if (m_checkpoint_due) checkpoint();
+    if (!m_room.lack().empty()) return std::nullopt;
     // Idle workers ask often, so the write lock is taken only when there is something to do.
     const bool anything = guarded(m_mutex, [&] {
-        SQLite::Statement row(m_database,
-                              "SELECT EXISTS (SELECT 1 FROM reports WHERE status = 'queued') OR EXISTS (SELECT 1 FROM "
-                              "reports WHERE status = 'running' AND lease_until_ms < ?)");
+        SQLite::Statement row(
+            m_database,
+            "SELECT EXISTS (SELECT 1 FROM reports WHERE status = 'queued' AND not_before_ms <= ?1) OR "
+            "EXISTS (SELECT 1 FROM reports WHERE status = 'running' AND lease_until_ms < ?1)");
         row.bind(1, m_clock());
         return row.executeStep() && row.getColumn(0).getInt() != 0;
     });
@@ -48,19 +51,22 @@ std::optional<Lease> SqliteStore::lease(const std::string& owner) {
         end_lost_leases("lease_until_ms < cast(? AS INTEGER)", std::to_string(now_ms));
         SQLite::Statement next(
             m_database,
-            "SELECT id, attempts, spec, spec_sha256, created_ms FROM reports WHERE status = 'queued' "
-            "ORDER BY id LIMIT 1");
+            "SELECT id, attempts, spec, spec_sha256, created_ms, setbacks FROM reports WHERE status = 'queued' AND "
+            "not_before_ms <= ? ORDER BY id LIMIT 1");
+        next.bind(1, now_ms);
         if (!next.executeStep()) return std::nullopt;
         Lease lease{.id = next.getColumn(0).getString(),
                     .owner = owner,
                     .attempt = next.getColumn(1).getInt() + 1,
                     .spec = next.getColumn(2).getString(),
                     .spec_sha256 = next.getColumn(3).getString(),
-                    .created_ms = next.getColumn(4).getInt64()};
+                    .created_ms = next.getColumn(4).getInt64(),
+                    .setbacks = next.getColumn(5).getInt()};
         next.reset();
         SQLite::Statement take(m_database,
                                "UPDATE reports SET status = 'running', progress = 0, stage = '', attempts = ?, "
-                               "lease_owner = ?, lease_until_ms = ?, revision = revision + 1 WHERE id = ?");
+                               "lease_owner = ?, lease_until_ms = ?, not_before_ms = 0, lacks_room = 0, revision = "
+                               "revision + 1 WHERE id = ?");
         SQLite::bind(take, lease.attempt, owner, now_ms + m_rules.lease_ms, lease.id);
         take.exec();
         return lease;
@@ -86,17 +92,33 @@ LeaseState SqliteStore::state(const Lease& lease) {
 }
 
 bool SqliteStore::commit(const Lease& lease, const FinishedReport& finished) {
-    put_blobs(finished.blobs);
+    std::vector<std::string> added;
+    bool kept = false;
+    try {
+        put_blobs(finished.blobs, added);
+        kept = commit_rows(lease, finished, added);
+    } catch (const std::exception&) {
+        remove_unnamed_files(added);
+        throw;
+    }
+    if (!kept) remove_unnamed_files(added);
+    checkpoint();
+    return kept;
+}
+
+bool SqliteStore::commit_rows(const Lease& lease, const FinishedReport& finished, std::vector<std::string>& added) {
     return transacted(m_mutex, m_database, [&] {
         const LeaseState state = read_state(m_database, lease);
         if (state == LeaseState::cancel_requested) end_attempt(lease.id, {}, Status::cancelled);
         if (state != LeaseState::held) return false;
         // Between put_blobs and the write lock a deletion may have taken a file that both reports name.
-        put_blobs(finished.blobs);
-        SQLite::Statement done(m_database,
-                               "UPDATE reports SET status = 'done', progress = 1, stage = '', revision = revision + 1, "
-                               "finished_ms = ?, verdict = ?, preview = ?, report = ?, lease_owner = NULL, "
-                               "lease_until_ms = NULL WHERE id = ?");
+        for (const BlobFile& blob : finished.blobs)
+            if (!m_blobs.find(blob.sha256)) put_blobs({blob}, added);
+        SQLite::Statement done(
+            m_database,
+            "UPDATE reports SET status = 'done', progress = 1, stage = '', revision = revision + 1, "
+            "died_of = NULL, finished_ms = ?, verdict = ?, preview = ?, report = ?, lease_owner = NULL, "
+            "lease_until_ms = NULL WHERE id = ?");
         const json preview = preview_of(finished.report);
         SQLite::bind(done, finished.finished_ms, finished.report.value("verdict", ""));
         if (!preview.is_null()) done.bind(3, preview.dump());
@@ -116,13 +138,48 @@ bool SqliteStore::commit(const Lease& lease, const FinishedReport& finished) {
     });
 }
 
-void SqliteStore::put_blobs(const std::vector<BlobFile>& blobs) {
+void SqliteStore::put_blobs(const std::vector<BlobFile>& blobs, std::vector<std::string>& added) {
     for (const BlobFile& blob : blobs)
-        if (!m_blobs.find(blob.sha256)) m_blobs.put(blob.sha256, read_file(blob.path, max_blob_bytes));
+        if (m_blobs.put(blob.sha256, read_file(blob.path, max_blob_bytes))) added.push_back(blob.sha256);
+}
+
+void SqliteStore::fail_by_signal(const Lease& lease, const JobError& error, int signal) {
+    essential([&] {
+        const LeaseState state = read_state(m_database, lease);
+        if (state == LeaseState::lost) return;
+        SQLite::Statement known(m_database, "SELECT 1 FROM reports WHERE spec_sha256 = ? AND died_of = ?");
+        SQLite::bind(known, lease.spec_sha256, signal);
+        const bool again = known.executeStep();
+        known.reset();
+        SQLite::Statement note(m_database, "UPDATE reports SET died_of = ? WHERE id = ?");
+        SQLite::bind(note, signal, lease.id);
+        note.exec();
+        const bool cancelled = state == LeaseState::cancel_requested;
+        const Status after = after_lost_attempt(lease.attempt, cancelled, m_rules);
+        end_attempt(lease.id, error, again && !cancelled ? Status::failed : after);
+    });
+    checkpoint();
+}
+
+void SqliteStore::set_back(const Lease& lease, const JobError& error, bool lacks_room) {
+    essential([&] {
+        const LeaseState state = read_state(m_database, lease);
+        if (state == LeaseState::lost) return;
+        if (state == LeaseState::cancel_requested) return end_attempt(lease.id, {}, Status::cancelled);
+        const int setbacks = lease.setbacks + 1;
+        if (setbacks > m_rules.max_setbacks) return end_attempt(lease.id, error, Status::failed);
+        requeue(lease.id, lease.attempt - 1);
+        SQLite::Statement wait(
+            m_database, "UPDATE reports SET stage = ?, setbacks = ?, not_before_ms = ?, lacks_room = ? WHERE id = ?");
+        SQLite::bind(wait, "waits: " + error.detail, setbacks, m_clock() + setback_ms(setbacks, m_rules),
+                     lacks_room ? 1 : 0, lease.id);
+        wait.exec();
+    });
+    checkpoint();
 }
 
 void SqliteStore::fail(const Lease& lease, const JobError& error, bool retry) {
-    transacted(m_mutex, m_database, [&] {
+    essential([&] {
         const LeaseState state = read_state(m_database, lease);
         if (state == LeaseState::lost) return;
         const bool cancelled = state == LeaseState::cancel_requested;
@@ -130,16 +187,18 @@ void SqliteStore::fail(const Lease& lease, const JobError& error, bool retry) {
         if (retry) status = after_lost_attempt(lease.attempt, cancelled, m_rules);
         end_attempt(lease.id, error, status);
     });
+    checkpoint();
 }
 
 void SqliteStore::cancel(const Lease& lease) {
-    transacted(m_mutex, m_database, [&] {
+    essential([&] {
         if (read_state(m_database, lease) != LeaseState::lost) end_attempt(lease.id, {}, Status::cancelled);
     });
+    checkpoint();
 }
 
 void SqliteStore::release(const Lease& lease) {
-    transacted(m_mutex, m_database, [&] {
+    essential([&] {
         const LeaseState state = read_state(m_database, lease);
         if (state == LeaseState::held) requeue(lease.id, lease.attempt - 1);
         if (state == LeaseState::cancel_requested) end_attempt(lease.id, {}, Status::cancelled);
@@ -147,7 +206,7 @@ void SqliteStore::release(const Lease& lease) {
 }
 
 void SqliteStore::end_leases_of(const std::string& owner) {
-    transacted(m_mutex, m_database, [&] { end_lost_leases("lease_owner = ?", owner); });
+    essential([&] { end_lost_leases("lease_owner = ?", owner); });
 }
 
 void SqliteStore::end_lost_leases(const std::string& condition, const std::string& value) {

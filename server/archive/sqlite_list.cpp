@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include "server/archive/sqlite_guard.h"
 #include "server/archive/sqlite_store.h"
 
@@ -67,7 +69,14 @@ ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
     if (!row.getColumn(8).isNull())
         summary.error = JobError{row.getColumn(8).getString(), row.getColumn(9).getString()};
     summary.verdict = row.getColumn(10).getString();
-    if (!row.getColumn(11).isNull()) summary.preview = json::parse(row.getColumn(11).getString());
+    if (!row.getColumn(11).isNull()) {
+        summary.preview = json::parse(row.getColumn(11).getString(), nullptr, false);
+        if (!summary.preview.is_object()) {
+            spdlog::error("report {}: its preview in the archive is not JSON", summary.id);
+            summary.preview = nullptr;
+            summary.broken = "its preview cannot be read";
+        }
+    }
     SQLite::Statement methods(database, "SELECT method FROM report_methods WHERE report_id = ? ORDER BY position");
     methods.bind(1, summary.id);
     while (methods.executeStep()) summary.methods.push_back(methods.getColumn(0).getString());

@@ -1,11 +1,13 @@
 #include "server/archive/sqlite_store.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <array>
 
 #include "embedded_server_files.h"
 #include "server/archive/sqlite_guard.h"
+#include "server/archive/sqlite_open.h"
 #include "server/jobs/facets.h"
 
 namespace sheer {
@@ -16,22 +18,17 @@ namespace fs = std::filesystem;
 namespace {
 
 // What makes an archive of version N out of one of version N-1.
-constexpr std::array migrations = {"schema.sql", "assets.sql"};
-constexpr int busy_timeout_ms = 10'000;
+constexpr std::array migrations = {"schema.sql", "assets.sql", "retries.sql"};
 constexpr std::chrono::hours leftover_age{1};
 
-SQLite::Database open_database(const fs::path& folder) {
+/// An archive whose last process ended needs room to be opened again.
+SQLite::Database open_with_reserve(const fs::path& folder, DiskRoom& room) {
     try {
-        fs::create_directories(folder);
-        SQLite::Database database((folder / "archive.sqlite").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
-                                  busy_timeout_ms);
-        database.exec("PRAGMA journal_mode = WAL");
-        database.exec("PRAGMA synchronous = FULL");
-        database.exec("PRAGMA foreign_keys = ON");
-        return database;
-    } catch (const std::exception& error) {
-        throw StoreError(fmt::format("cannot open the archive in {}: {}", folder.string(), error.what()));
+        return open_archive(folder);
+    } catch (const StoreError&) {
+        if (room.lack().empty() || !room.give_up_reserve()) throw;
     }
+    return open_archive(folder);
 }
 
 std::string sql_file(const std::string& name) {
@@ -63,27 +60,62 @@ SqliteStore::SqliteStore(const fs::path& folder, LeaseRules rules, ClockMs clock
       m_clock(std::move(clock)),
       m_blobs(folder / "blobs"),
       m_assets(folder / "assets"),
-      m_database(open_database(folder)),
-      m_watch(open_database(folder)) {
-    migrate();
+      m_room(folder),
+      m_database(open_with_reserve(folder, m_room)),
+      m_watch(open_archive(folder)) {
+    check_archive(m_database, folder);
+    essential([&] { migrate(folder); });
     m_blobs.remove_leftovers(leftover_age);
     m_assets.remove_leftovers(leftover_age);
+    m_room.restore_reserve();
+    checkpoint();
 }
 
-void SqliteStore::migrate() {
-    transacted(m_mutex, m_database, [&] {
-        const auto version = m_database.execAndGet("PRAGMA user_version").getInt64();
-        if (version < 0 || static_cast<std::size_t>(version) > migrations.size())
-            throw StoreError(
-                fmt::format("the archive has version {}, this program knows version {}", version, migrations.size()));
-        for (auto i = static_cast<std::size_t>(version); i < migrations.size(); ++i)
-            m_database.exec(sql_file(migrations[i]));
-        m_database.exec(fmt::format("PRAGMA user_version = {}", migrations.size()));
-    });
+void SqliteStore::migrate(const fs::path& folder) {
+    const auto version = m_database.execAndGet("PRAGMA user_version").getInt64();
+    if (version < 0 || static_cast<std::size_t>(version) > migrations.size())
+        throw StoreError(fmt::format("the archive in {} has version {}, this program knows version {}", folder.string(),
+                                     version, migrations.size()));
+    for (auto i = static_cast<std::size_t>(version); i < migrations.size(); ++i)
+        m_database.exec(sql_file(migrations[i]));
+    m_database.exec(fmt::format("PRAGMA user_version = {}", migrations.size()));
+    m_database.exec(fmt::format("PRAGMA application_id = {}", archive_application_id));
+}
+
+void SqliteStore::checkpoint() {
+    try {
+        m_checkpoint_due = !guarded(m_mutex, [&] {
+            // Waits for nobody: readers of an older state leave a part of the log to the next time.
+            SQLite::Statement carry(m_database, "PRAGMA wal_checkpoint(PASSIVE)");
+            return carry.executeStep() && carry.getColumn(1).getInt() == carry.getColumn(2).getInt();
+        });
+    } catch (const StoreError& error) {
+        // The log keeps what the database has not got yet.
+        spdlog::warn("the log is not carried over: {}", error.what());
+        m_checkpoint_due = true;
+    }
+}
+
+std::string SqliteStore::lack_of_room() {
+    m_room.restore_reserve();
+    return guarded(m_mutex, [&] { return find_lack_of_room(); });
+}
+
+std::string SqliteStore::find_lack_of_room() {
+    if (std::string lack = m_room.lack(); !lack.empty()) return lack;
+    SQLite::Statement waiting(m_database,
+                              "SELECT not_before_ms FROM reports WHERE status = 'queued' AND not_before_ms > 0 AND "
+                              "not_before_ms > ? AND lacks_room <> 0 ORDER BY not_before_ms LIMIT 1");
+    const std::int64_t now_ms = m_clock();
+    waiting.bind(1, now_ms);
+    if (!waiting.executeStep()) return "";
+    return fmt::format("a report did not fit on the archive's disk and is tried again in {} s",
+                       (waiting.getColumn(0).getInt64() - now_ms) / 1000 + 1);
 }
 
 SubmitResult SqliteStore::submit(const NewReport& report, std::size_t max_queued) {
     using Outcome = SubmitResult::Outcome;
+    m_room.restore_reserve();
     return transacted(m_mutex, m_database, [&]() -> SubmitResult {
         if (report.idempotency) {
             SQLite::Statement known(m_database, "SELECT id, body_sha256 FROM reports WHERE idempotency_key = ?");
@@ -95,6 +127,7 @@ SubmitResult SqliteStore::submit(const NewReport& report, std::size_t max_queued
         }
         const auto queued = m_database.execAndGet("SELECT count(*) FROM reports WHERE status = 'queued'").getInt64();
         if (static_cast<std::size_t>(queued) >= max_queued) return {Outcome::queue_full, ""};
+        if (const std::string lack = find_lack_of_room(); !lack.empty()) throw StoreFull(lack);
         insert_report(report);
         return {Outcome::created, report.id};
     });
@@ -146,7 +179,8 @@ std::optional<ReportRecord> SqliteStore::find(const std::string& id) {
 
 RemoveResult SqliteStore::remove(const std::string& id) {
     std::vector<std::string> candidates;
-    const RemoveResult result = transacted(m_mutex, m_database, [&] {
+    const RemoveResult result = essential([&] {
+        candidates.clear();
         SQLite::Statement row(m_database, "SELECT status FROM reports WHERE id = ?");
         row.bind(1, id);
         if (!row.executeStep()) return RemoveResult::not_found;
@@ -169,9 +203,12 @@ RemoveResult SqliteStore::remove(const std::string& id) {
         SQLite::Statement gone(m_database, "DELETE FROM reports WHERE id = ?");
         gone.bind(1, id);
         gone.exec();
+        try_again_what_lacked_room();
         return RemoveResult::deleted;
     });
     if (result == RemoveResult::deleted) remove_blobs(candidates);
+    checkpoint();
+    m_room.restore_reserve();
     return result;
 }
 
@@ -179,7 +216,8 @@ void SqliteStore::remove_blobs(const std::vector<std::string>& candidates) {
     // The rows go first and the files after the commit: if the machine stops in between, a file too many is left, never
     // one too few. Both steps hold the write lock, so that no commit of a worker can come to rely on a file that goes.
     std::vector<std::string> unnamed;
-    transacted(m_mutex, m_database, [&] {
+    essential([&] {
+        unnamed.clear();
         for (const std::string& sha256 : candidates) {
             SQLite::Statement drop(m_database,
                                    "DELETE FROM blobs WHERE sha256 = ?1 AND NOT EXISTS "
@@ -188,8 +226,12 @@ void SqliteStore::remove_blobs(const std::vector<std::string>& candidates) {
             if (drop.exec() > 0) unnamed.push_back(sha256);
         }
     });
-    transacted(m_mutex, m_database, [&] {
-        for (const std::string& sha256 : unnamed) {
+    remove_unnamed_files(unnamed);
+}
+
+void SqliteStore::remove_unnamed_files(const std::vector<std::string>& candidates) {
+    essential([&] {
+        for (const std::string& sha256 : candidates) {
             SQLite::Statement named(m_database, "SELECT 1 FROM blobs WHERE sha256 = ?");
             named.bind(1, sha256);
             if (!named.executeStep()) m_blobs.remove(sha256);
@@ -197,15 +239,29 @@ void SqliteStore::remove_blobs(const std::vector<std::string>& candidates) {
     });
 }
 
-std::optional<Blob> SqliteStore::find_blob(const std::string& sha256) {
-    return guarded(m_mutex, [&]() -> std::optional<Blob> {
+void SqliteStore::try_again_what_lacked_room() {
+    m_database.exec("UPDATE reports SET not_before_ms = 0 WHERE status = 'queued' AND lacks_room <> 0");
+}
+
+std::optional<std::string> SqliteStore::media_type_of_blob(const std::string& sha256) {
+    return guarded(m_mutex, [&]() -> std::optional<std::string> {
         SQLite::Statement row(m_database, "SELECT media_type FROM blobs WHERE sha256 = ?");
         row.bind(1, sha256);
         if (!row.executeStep()) return std::nullopt;
-        const auto path = m_blobs.find(sha256);
-        if (!path) throw StoreError("archive: the file of blob " + sha256 + " is missing");
-        return Blob{sha256, row.getColumn(0).getString(), *path};
+        return row.getColumn(0).getString();
     });
+}
+
+std::optional<Blob> SqliteStore::find_blob(const std::string& sha256) {
+    const auto media_type = media_type_of_blob(sha256);
+    if (!media_type) return std::nullopt;
+    try {
+        return Blob{sha256, *media_type, m_blobs.find_whole(sha256)};
+    } catch (const DamagedFile&) {
+        // A deletion may have come in between.
+        if (!media_type_of_blob(sha256)) return std::nullopt;
+        throw;
+    }
 }
 
 std::int64_t SqliteStore::change_counter() {

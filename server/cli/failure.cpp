@@ -1,9 +1,11 @@
 #include "server/cli/failure.h"
 
 #include <new>
+#include <system_error>
 
 #include "renderer/errors.h"
 #include "server/cli/commands.h"
+#include "server/jobs/store.h"
 
 namespace sheer::cli {
 
@@ -13,6 +15,10 @@ namespace {
 
 json message(const std::string& kind, const std::string& detail, const json& errors = json::array()) {
     return {{"error", {{"kind", kind}, {"detail", detail}, {"errors", errors}}}};
+}
+
+bool is_of_the_disk(const std::error_code& code) {
+    return means_full_disk(code) || code == std::errc::io_error || code == std::errc::read_only_file_system;
 }
 
 }  // namespace
@@ -28,6 +34,11 @@ Failure describe_failure(const std::exception& error) {
         return {exit_render_failed, message("unsupported", error.what())};
     if (dynamic_cast<const RenderError*>(&error) != nullptr)
         return {exit_render_failed, message("render", error.what())};
+    if (const auto* system = dynamic_cast<const std::system_error*>(&error); system && is_of_the_disk(system->code())) {
+        json line = message("storage", system->code().message());
+        line["error"]["full"] = means_full_disk(system->code());
+        return {exit_render_failed, std::move(line), false};
+    }
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
         return {exit_render_failed, message("render", "The renderer ran out of memory."), false};
     return {exit_render_failed, message("render", "An error within the renderer; the log of the service has it."),

@@ -17,7 +17,12 @@ FileAssets::Resolver uploads_in(const std::filesystem::path& folder) {
         if (folder.empty() || !is_sha256(name)) throw AssetError("this is not the SHA-256 of an uploaded file");
         std::filesystem::path file = blob_path(folder, name);
         if (!std::filesystem::exists(file)) throw AssetError("the asset with this SHA-256 is not there any more");
-        return file;
+        try {
+            if (sha256_of_file(file) == name) return file;
+        } catch (const StoreError&) {
+            throw AssetError("the asset with this SHA-256 cannot be read");
+        }
+        throw AssetError("the asset with this SHA-256 is damaged: its bytes have another hash");
     };
 }
 

@@ -46,10 +46,22 @@ PixelOptions pixel_options(const ServiceConfig& config) {
             .time_limit = config.pixel_time_limit};
 }
 
+/// On SIGHUP: what can change while everything else goes on. A file that is wrong changes nothing.
+void reload(const ServeOptions& options) {
+    try {
+        const ServiceConfig config = config_of(options);
+        spdlog::set_level(spdlog::level::from_str(config.log_level));
+        spdlog::info("SIGHUP: the log level is {}; other settings wait for the next start", config.log_level);
+    } catch (const std::exception& error) {
+        spdlog::error("SIGHUP: the configuration is not read again: {}", error.what());
+    }
+}
+
 void serve(const ServeOptions& options) {
     // What a program may want to read is on standard output; the log is for people.
     spdlog::set_default_logger(spdlog::stderr_color_mt("serve"));
     const ServiceConfig config = config_of(options);
+    spdlog::set_level(spdlog::level::from_str(config.log_level));
     const http::Endpoint endpoint = http::parse_endpoint(config.listen);
     SqliteStore store(config.data, config.leases, system_now_ms);
     ReportIds ids(system_now_ms);
@@ -74,10 +86,12 @@ void serve(const ServeOptions& options) {
                           .ready_within = config.ready_within};
     const http::Application application(http::make_guard(http::is_loopback(endpoint), config.allowed_hosts),
                                         http::make_router(service));
-    http::Server server(
-        endpoint, config.http, [&](http::Request request) { return application.answer(std::move(request)); },
-        [&](std::string_view method, std::string_view target) { return application.body_limit(method, target); },
-        [&store] { return store.change_counter(); });
+    http::Server server(endpoint, config.http,
+                        {.answer = [&](http::Request request) { return application.answer(std::move(request)); },
+                         .handling = [&](std::string_view method,
+                                         std::string_view target) { return application.handling(method, target); },
+                         .change_counter = [&store] { return store.change_counter(); },
+                         .reload = [&options] { reload(options); }});
     Supervisor workers(store, supervisor_options(config, options));
     fmt::print("Sheer listens on {}\n", http::url_of(server.endpoint()));
     std::fflush(stdout);

@@ -21,6 +21,9 @@ std::vector<Param> http_fields() {
     const http::Limits limits;
     return {
         Param::integer("max_connections", "connections at a time", "", limits.max_connections, 1, 100'000),
+        Param::integer("max_streams_per_client",
+                       "streams of events and waiting requests of one client's address at a time", "",
+                       limits.max_streams_per_client, 1, 100'000),
         Param::integer("threads", "threads that make answers", "", limits.threads, 1, 64),
         Param::integer("header_bytes", "size of a request's header", "byte", limits.header_bytes, 1024, 1 << 20),
         Param::integer("body_bytes", "size of a request's body", "byte", static_cast<long long>(limits.body_bytes),
@@ -86,6 +89,7 @@ std::chrono::milliseconds ms_of(const json& seconds) {
 http::Limits limits_of(const json& read) {
     http::Limits limits;
     limits.max_connections = read["max_connections"];
+    limits.max_streams_per_client = read["max_streams_per_client"];
     limits.threads = read["threads"];
     limits.header_bytes = read["header_bytes"];
     limits.body_bytes = read["body_bytes"];
@@ -108,6 +112,8 @@ std::vector<Param> service_config_fields() {
             Param::text("data", "folder of the archive", "sheer-data", 4096),
             Param::integer("workers", "worker processes; 0 for none", "", 1, 0, 256),
             std::move(hosts),
+            Param::choice("log_level", "what the log tells; read again on SIGHUP", "info",
+                          {"debug", "info", "warning", "error"}),
             Param::object("http", "what connections may take", http_fields()),
             Param::object("jobs", "the queue", jobs_fields()),
             Param::object("assets", "uploaded files", assets_fields()),
@@ -124,6 +130,7 @@ ServiceConfig read_service_config(const json& document) {
     if (!errors.empty()) throw SpecError(std::move(errors));
     ServiceConfig config{.listen = read["listen"], .data = read["data"].get<std::string>(), .workers = read["workers"]};
     config.allowed_hosts = std::move(hosts);
+    config.log_level = read["log_level"];
     config.http = limits_of(read["http"]);
     config.max_queued = read["jobs"]["max_queued"];
     config.max_wait = std::chrono::seconds(read["http"]["max_wait_s"].get<int>());

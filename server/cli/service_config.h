@@ -18,6 +18,7 @@ struct ServiceConfig {
     std::filesystem::path data;
     int workers = 1;
     std::set<std::string> allowed_hosts;
+    std::string log_level;  ///< a name that spdlog knows
     http::Limits http;
     std::size_t max_asset_bytes = 0;
     UploadCheckOptions upload_check;

@@ -4,6 +4,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <csignal>
 #include <memory>
 
 #include "server/archive/sqlite_store.h"
@@ -23,7 +24,10 @@ struct WorkerArguments {
 void work(const WorkerArguments& arguments) {
     StopSignal stop;
     spdlog::set_default_logger(spdlog::stderr_color_mt("worker"));
+    // Until the service was started anew its workers keep the level that they began with.
+    std::signal(SIGHUP, SIG_IGN);
     const ServiceConfig config = load_service_config(arguments.config);
+    spdlog::set_level(spdlog::level::from_str(config.log_level));
     SqliteStore store(arguments.data, config.leases, system_now_ms);
     WorkerOptions options = config.worker;
     options.data = arguments.data;

@@ -6,16 +6,17 @@
 
 #include <algorithm>
 
+#include "renderer/spec/json_text.h"
+#include "server/http/preconditions.h"
 #include "server/http/problem.h"
 #include "server/http/text.h"
+#include "server/jobs/store.h"
 
 namespace sheer::http {
 
 using nlohmann::json;
 
 namespace {
-
-constexpr int max_json_depth = 64;
 
 void add_default(Headers& headers, const char* name, const char* value) {
     if (!headers.contains(name)) headers.add(name, value);
@@ -29,7 +30,13 @@ Result caught(const Request& request, const Work& work) {
     } catch (const Problem& wrong) {
         return wrong.response();
     } catch (const SpecError& wrong) {
-        return problem(422, "The spec is wrong.", wrong.errors());
+        return problem(422, "The spec is wrong.", wrong.errors(), wrong.count());
+    } catch (const StoreFull& full) {
+        spdlog::error("{} {}: {}", request.method, request.target, full.what());
+        return problem(507, fmt::format("There is no room: {}.", full.what()));
+    } catch (const DamagedFile& damaged) {
+        spdlog::error("{} {}: {}", request.method, request.target, damaged.what());
+        return problem(500, fmt::format("The archive is damaged: {}.", damaged.what()));
     } catch (const std::exception& error) {
         spdlog::error("{} {}: {}", request.method, request.target, error.what());
         return problem(500, "The service failed to answer; its log says why.");
@@ -53,34 +60,37 @@ void check_body_type(const Route& route, const std::optional<std::string>& conte
 
 }  // namespace
 
-std::optional<std::uint64_t> Application::body_limit(std::string_view method, std::string_view target) const {
+Handling Application::handling(std::string_view method, std::string_view target) const {
     const Match match = m_router.match(method, target.substr(0, target.find('?')));
-    if (match.route == nullptr || match.route->body_bytes == 0) return std::nullopt;
-    return match.route->body_bytes;
+    if (match.route == nullptr) return {};
+    Handling handling{.lane = match.route->lane, .is_probe = match.route->is_probe};
+    if (match.route->body_bytes != 0) handling.body_bytes = match.route->body_bytes;
+    return handling;
 }
 
 Answer Application::answer(Request request) const {
     Answer answer = caught<Answer>(request, [&] { return handle(request); });
-    if (auto* response = std::get_if<Response>(&answer)) return finished(std::move(*response), request);
-    if (auto* stream = std::get_if<EventStream>(&answer)) stream->head = finished(std::move(stream->head), request);
+    if (auto* response = std::get_if<Response>(&answer)) return unless_known(std::move(*response), request);
+    if (auto* stream = std::get_if<EventStream>(&answer)) stream->head = finished(std::move(stream->head));
     if (auto* waiting = std::get_if<Waiting>(&answer)) {
         waiting->ready = [ready = std::move(waiting->ready), request]() -> std::optional<Response> {
             auto response = caught<std::optional<Response>>(request, ready);
-            if (response) response = finished(std::move(*response), request);
+            if (response) response = finished(std::move(*response));
             return response;
         };
         waiting->otherwise = [otherwise = std::move(waiting->otherwise), request] {
-            return finished(caught<Response>(request, otherwise), request);
+            return finished(caught<Response>(request, otherwise));
         };
     }
     return answer;
 }
 
 Answer Application::handle(Request& request) const {
-    if (auto refusal = m_guard.refusal(request)) return *refusal;
     const std::string_view target = request.target;
     const std::size_t question = target.find('?');
     Match match = m_router.match(request.method, target.substr(0, question));
+    if (match.route == nullptr || !match.route->is_probe)
+        if (auto refusal = m_guard.refusal(request)) return *refusal;
     if (match.allowed.empty()) throw Problem(404, "There is nothing at this address.");
     const std::string allow = fmt::format("{}", fmt::join(match.allowed, ", "));
     if (request.method == "OPTIONS") {
@@ -95,16 +105,28 @@ Answer Application::handle(Request& request) const {
     request.query = read_query(question == std::string_view::npos ? "" : target.substr(question + 1),
                                match.route->query, match.route->wrong_query_status);
     check_body_type(*match.route, request.headers.find("Content-Type"));
+    if (!is_safe(request.method) &&
+        judge_preconditions(request, match.route->etag ? match.route->etag(request) : "") != Precondition::met)
+        throw Problem(412, "It is not as If-Match or If-None-Match wants it; nothing was done.");
     return match.route->handle(request);
 }
 
-Response finished(Response response, const Request& request) {
-    const auto etag = response.headers.find("ETag");
-    const auto known = request.headers.find("If-None-Match");
-    if (response.status == 200 && etag && known && names_etag(*known, *etag)) {
-        response.status = 304;
-        response.body = std::string();
+Response unless_known(Response response, const Request& request) {
+    if (response.status != 200 || !is_safe(request.method)) return finished(std::move(response));
+    switch (judge_preconditions(request, response.headers.find("ETag").value_or(""))) {
+        case Precondition::met:
+            break;
+        case Precondition::not_modified:
+            response.status = 304;
+            response.body = std::string();
+            break;
+        case Precondition::failed:
+            return finished(problem(412, "It is not what If-Match wants."));
     }
+    return finished(std::move(response));
+}
+
+Response finished(Response response) {
     add_default(response.headers, "Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'; sandbox");
     add_default(response.headers, "X-Content-Type-Options", "nosniff");
     add_default(response.headers, "Referrer-Policy", "no-referrer");
@@ -115,17 +137,10 @@ Response finished(Response response, const Request& request) {
 }
 
 json json_body(const Request& request) {
-    const auto shallow = [](int depth, json::parse_event_t, json&) {
-        if (depth > max_json_depth)
-            throw Problem(400, fmt::format("The body is nested deeper than {} levels.", max_json_depth));
-        return true;
-    };
     try {
-        return json::parse(request.body, shallow);
-    } catch (const json::parse_error& error) {
-        throw Problem(400, fmt::format("The body is not JSON; it breaks at byte {}.", error.byte));
-    } catch (const json::exception&) {
-        throw Problem(400, "The body is not JSON that can be read: a number is out of range.");
+        return read_json(request.body);
+    } catch (const NotJson& error) {
+        throw Problem(400, fmt::format("The body is not JSON: {}.", error.what()));
     }
 }
 

@@ -11,8 +11,8 @@ class Application {
     Application(Guard guard, Router router) : m_guard(std::move(guard)), m_router(std::move(router)) {}
     /// Never throws: what goes wrong is a problem. HEAD is answered like GET; the sender leaves out the body.
     Answer answer(Request request) const;
-    /// The longest body that the route of this request takes, or nothing if it has no limit of its own.
-    std::optional<std::uint64_t> body_limit(std::string_view method, std::string_view target) const;
+    /// How a request of this method and target is to be treated before its body is there.
+    Handling handling(std::string_view method, std::string_view target) const;
 
   private:
     Answer handle(Request& request) const;
@@ -21,8 +21,10 @@ class Application {
     Router m_router;
 };
 
-/// What every response gets: headers against misuse by other sites, and 304 where the reader has it already.
-Response finished(Response response, const Request& request);
+/// What every response gets: headers against misuse by other sites.
+Response finished(Response response);
+/// To a request that changes nothing, the same; 304 where its sender has it already, 412 where it wants another one.
+Response unless_known(Response response, const Request& request);
 
 /// The body of a request as JSON. Throws Problem: 400 if it is none, or nested so deep that it can only be meant badly.
 nlohmann::json json_body(const Request& request);

@@ -1,15 +1,12 @@
 #include "server/http/guard.h"
 
+#include "server/http/preconditions.h"
 #include "server/http/problem.h"
 #include "server/http/text.h"
 
 namespace sheer::http {
 
 namespace {
-
-bool is_safe(const std::string& method) {
-    return method == "GET" || method == "HEAD" || method == "OPTIONS";
-}
 
 bool is_own_origin(const std::string& origin, const std::string& host) {
     return equal_ignoring_case(origin, "http://" + host) || equal_ignoring_case(origin, "https://" + host);

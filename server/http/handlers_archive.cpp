@@ -76,7 +76,8 @@ std::vector<Route> archive_routes(Service& service) {
              .headers = {{"If-None-Match", "the ETag of what is there already"}},
              .replies = {{200, "The picture; it never changes", "image/*", ""},
                          {304, "It is the one that is there already", "", ""},
-                         {404, "There is no such blob", "application/problem+json", "Problem"}},
+                         {404, "There is no such blob", "application/problem+json", "Problem"},
+                         {500, "Its bytes are damaged", "application/problem+json", "Problem"}},
              .handle = [&service](const Request& request) { return get_blob(service, request); }}};
 }
 

@@ -30,6 +30,7 @@ json asset_json(const Asset& asset) {
                  {"bytes", asset.size_bytes},
                  {"created_at", utc_text(asset.created_ms)},
                  {"url", fmt::format("{}/{}", assets_path, asset.sha256)}});
+    if (!asset.broken.empty()) body["broken"] = asset.broken;
     return body;
 }
 
@@ -53,7 +54,11 @@ Answer post_asset(Service& service, std::atomic<int>& checks, const Request& req
                 .media_type = media_type,
                 .name = request.query["name"],
                 .size_bytes = static_cast<std::int64_t>(request.body.size())};
-    if (const auto known = service.store.find_asset(asset.sha256)) return known_asset(*known, media_type);
+    if (const auto known = service.store.find_asset(asset.sha256)) {
+        // Its bytes may have been damaged since.
+        if (known->media_type == media_type) service.store.add_asset(*known, request.body);
+        return known_asset(*known, media_type);
+    }
     UploadVerdict verdict;
     {
         const Slot slot(checks, service.max_checks, "Other uploads are being read; come again.");
@@ -68,18 +73,22 @@ Answer post_asset(Service& service, std::atomic<int>& checks, const Request& req
     return asset_response(201, *added);
 }
 
-Asset found_asset(Service& service, const Request& request) {
-    const std::string sha256 = request.path_values.at("sha256");
-    const auto asset = is_sha256(sha256) ? service.store.find_asset(sha256) : std::nullopt;
-    if (!asset) throw Problem(404, "There is no such asset.");
-    return *asset;
+Problem no_such_asset() {
+    return {404, "There is no such asset."};
+}
+
+std::string asset_etag(const Asset& asset) {
+    return fmt::format("\"{}\"", asset.sha256);
 }
 
 Answer get_asset(Service& service, const Request& request) {
-    const Asset asset = found_asset(service, request);
+    const std::string sha256 = request.path_values.at("sha256");
+    const auto found = is_sha256(sha256) ? service.store.find_whole_asset(sha256) : std::nullopt;
+    if (!found) throw no_such_asset();
+    const Asset& asset = *found;
     Response response{.status = 200, .headers = {}, .body = asset.path};
     response.headers.add("Content-Type", asset.media_type);
-    response.headers.add("ETag", fmt::format("\"{}\"", asset.sha256));
+    response.headers.add("ETag", asset_etag(asset));
     // Private and checked again, since an asset can be deleted.
     response.headers.add("Cache-Control", "private, no-cache");
     return response;
@@ -94,6 +103,13 @@ Answer list_assets(Service& service, const Request& request) {
     return json_response(200, body);
 }
 
+std::string current_asset_etag(Service& service, const Request& request) {
+    const std::string sha256 = request.path_values.at("sha256");
+    const auto found = is_sha256(sha256) ? service.store.find_asset(sha256) : std::nullopt;
+    if (!found) throw no_such_asset();
+    return asset_etag(*found);
+}
+
 Answer delete_asset(Service& service, const Request& request) {
     switch (service.store.remove_asset(request.path_values.at("sha256"))) {
         case RemoveAssetResult::removed:
@@ -103,7 +119,7 @@ Answer delete_asset(Service& service, const Request& request) {
         case RemoveAssetResult::not_found:
             break;
     }
-    throw Problem(404, "There is no such asset.");
+    throw no_such_asset();
 }
 
 Route post_route(Service& service) {
@@ -121,6 +137,7 @@ Route post_route(Service& service) {
                     {409, "The same bytes are here already under another type", "application/problem+json", "Problem"},
                     {422, "The file is not what its type says; `detail` has the reason", "application/problem+json",
                      "Problem"},
+                    {507, "There is no room for it", "application/problem+json", "Problem"},
                     {429, "Other uploads are being read; Retry-After says when to come again",
                      "application/problem+json", "Problem"}},
         .handle = [&service, checks](const Request& request) { return post_asset(service, *checks, request); },
@@ -141,6 +158,13 @@ Route one_route(std::string method, std::string id, std::string summary, std::ve
 }  // namespace
 
 std::vector<Route> asset_routes(Service& service) {
+    Route remove =
+        one_route("DELETE", "deleteAsset", "Delete an uploaded file",
+                  {{204, "It is deleted", "", ""},
+                   {409, "A queued or running report needs it", "application/problem+json", "Problem"},
+                   {412, "It is not as If-Match or If-None-Match wants it", "application/problem+json", "Problem"}},
+                  [&service](const Request& request) { return delete_asset(service, request); });
+    remove.etag = [&service](const Request& request) { return current_asset_etag(service, request); };
     return {post_route(service),
             {.method = "GET",
              .pattern = assets_path,
@@ -151,10 +175,7 @@ std::vector<Route> asset_routes(Service& service) {
              .handle = [&service](const Request& request) { return list_assets(service, request); }},
             one_route("GET", "getAsset", "The bytes of an uploaded file", {{200, "The file", "*/*", ""}},
                       [&service](const Request& request) { return get_asset(service, request); }),
-            one_route("DELETE", "deleteAsset", "Delete an uploaded file",
-                      {{204, "It is deleted", "", ""},
-                       {409, "A queued or running report needs it", "application/problem+json", "Problem"}},
-                      [&service](const Request& request) { return delete_asset(service, request); })};
+            std::move(remove)};
 }
 
 }  // namespace sheer::http

@@ -6,7 +6,6 @@
 #include "renderer/files/data_uri.h"
 #include "renderer/files/diff.h"
 #include "renderer/spec/sweep.h"
-#include "server/archive/blob_store.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
@@ -30,22 +29,10 @@ class InlineSink : public BlobSink {
     }
 };
 
-json done_report(Service& service, const std::string& id) {
-    const auto record = service.store.find(id);
-    if (!record) throw Problem(404, fmt::format("There is no report \"{}\".", id));
-    if (record->status != Status::done)
-        throw Problem(409, fmt::format("The report {} is not done: it is {}.", id, status_text(record->status)));
-    return json::parse(record->report);
-}
-
 Answer get_diff(Service& service, std::atomic<int>& diffs, const Request& request) {
-    const json a = done_report(service, request.path_values.at("id"));
-    const json b = done_report(service, request.query["against"]);
-    const auto read_picture = [&service](const json& image) {
-        const auto blob = service.store.find_blob(image.at("sha256").get<std::string>());
-        if (!blob) throw StoreError("a picture of the report is missing");
-        return read_file(blob->path, max_picture_bytes);
-    };
+    const json a = done_report(service.store, request.path_values.at("id"));
+    const json b = done_report(service.store, request.query["against"]);
+    const auto read_picture = [&service](const json& image) { return picture_bytes(service.store, image); };
     InlineSink sink;
     DiffOptions options{.max_pixels = max_pixels};
     if (request.query["run"].is_number()) {

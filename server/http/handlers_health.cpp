@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "server/http/problem.h"
 #include "server/http/service.h"
 
@@ -6,6 +8,8 @@ namespace sheer::http {
 namespace {
 
 Answer get_ready(Service& service) {
+    if (const std::string trouble = service.store.lack_of_room(); !trouble.empty())
+        throw Problem(503, fmt::format("There is no room: {}.", trouble)).with("Retry-After", "30");
     const auto last_ms = service.store.last_rendered_ms();
     const std::int64_t age_ms = last_ms ? service.clock() - *last_ms : -1;
     if (!last_ms || age_ms > std::chrono::milliseconds(service.ready_within).count())
@@ -13,27 +17,31 @@ Answer get_ready(Service& service) {
     return json_response(200, {{"status", "ready"}, {"last_rendered_at", utc_text(*last_ms)}});
 }
 
-Route health_route(std::string path, std::string id, std::string summary, std::vector<Reply> replies, Handler handle) {
+Route health_route(std::string path, std::string id, std::string summary, std::vector<Reply> replies, Lane lane,
+                   Handler handle) {
     return {.method = "GET",
             .pattern = std::move(path),
             .id = std::move(id),
             .summary = std::move(summary),
             .replies = std::move(replies),
-            .handle = std::move(handle)};
+            .handle = std::move(handle),
+            .lane = lane,
+            .is_probe = true};
 }
 
 }  // namespace
 
 std::vector<Route> health_routes(Service& service) {
     return {health_route("/healthz", "getHealth", "Whether the service is alive",
-                         {{200, "It is", "application/json", "Health"}},
+                         {{200, "It is", "application/json", "Health"}}, Lane::at_once,
                          [](const Request&) {
                              return json_response(200, {{"status", "ok"}});
                          }),
-            health_route("/readyz", "getReadiness", "Whether a worker rendered something lately",
-                         {{200, "One did", "application/json", "Health"},
-                          {503, "None did", "application/problem+json", "Problem"}},
-                         [&service](const Request&) { return get_ready(service); })};
+            health_route("/readyz", "getReadiness",
+                         "Whether a worker rendered something lately, and there is room for reports",
+                         {{200, "Both", "application/json", "Health"},
+                          {503, "`detail` says what is missing", "application/problem+json", "Problem"}},
+                         Lane::pool, [&service](const Request&) { return get_ready(service); })};
 }
 
 }  // namespace sheer::http

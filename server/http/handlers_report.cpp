@@ -4,7 +4,6 @@
 
 #include "renderer/files/html.h"
 #include "renderer/report/report.h"
-#include "server/archive/blob_store.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
@@ -27,18 +26,11 @@ ReportRecord found_report(Service& service, const Request& request) {
 }
 
 json finished_report(Service& service, const Request& request) {
-    const ReportRecord record = found_report(service, request);
-    if (record.status != Status::done)
-        throw Problem(409, fmt::format("The report is not done: it is {}.", status_text(record.status)));
-    return json::parse(record.report);
+    return done_report(service.store, request.path_values.at("id"));
 }
 
 Answer get_html(Service& service, const Request& request) {
-    const auto read_picture = [&service](const json& image) {
-        const auto blob = service.store.find_blob(image.at("sha256").get<std::string>());
-        if (!blob) throw StoreError("a picture of the report is missing");
-        return read_file(blob->path, max_picture_bytes);
-    };
+    const auto read_picture = [&service](const json& image) { return picture_bytes(service.store, image); };
     Response response =
         text_response(200, report_html(finished_report(service, request), read_picture), "text/html; charset=utf-8");
     response.headers.add("Content-Security-Policy", page_policy);
@@ -113,6 +105,15 @@ std::vector<Route> report_routes(Service& service) {
               {{200, "The events; their ids are revisions of the report", "text/event-stream", ""},
                {204, "There is nothing after Last-Event-ID, and nothing will come", "", ""}},
               [&service](const Request& request) { return get_events(service, request); });
+    Route remove =
+        route("DELETE", "", "deleteReport", "Cancel a queued or running report, delete one that is over",
+              {{412, "It is not as If-Match or If-None-Match wants it", "application/problem+json", "Problem"},
+               {200, "It was queued and is cancelled", "application/json", "Report"},
+               {202, "It is running and will be cancelled", "application/json", "Report"},
+               {204, "It was over and is deleted", "", ""}},
+              [&service](const Request& request) { return delete_report(service, request); });
+    remove.headers = {{"If-Match", "the ETag of the report that is meant"}};
+    remove.etag = [&service](const Request& request) { return report_etag(found_report(service, request)); };
     events.headers = {{"Last-Event-ID", "the last event that was seen"}};
     return {
         route("GET", "", "getReport", "A report, also while it is queued or running",
@@ -127,11 +128,7 @@ std::vector<Route> report_routes(Service& service) {
               {{200, "The checks", "application/xml", ""},
                {409, "The report is not over", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return get_junit(service, request); }),
-        route("DELETE", "", "deleteReport", "Cancel a queued or running report, delete one that is over",
-              {{200, "It was queued and is cancelled", "application/json", "Report"},
-               {202, "It is running and will be cancelled", "application/json", "Report"},
-               {204, "It was over and is deleted", "", ""}},
-              [&service](const Request& request) { return delete_report(service, request); }),
+        std::move(remove),
     };
 }
 

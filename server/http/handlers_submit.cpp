@@ -37,6 +37,8 @@ AssetRule asset_rule(Service& service) {
                                reference.type);
         const auto asset = service.store.find_asset(reference.name);
         if (!asset) return "there is no asset with this SHA-256; POST /api/v1/assets takes one";
+        if (!asset->broken.empty())
+            return fmt::format("this asset is damaged, {}; POST /api/v1/assets takes it again", asset->broken);
         if (asset->type != reference.type)
             return fmt::format("this asset is a {} ({}), not a {}", asset->type, asset->media_type, reference.type);
         return "";
@@ -119,15 +121,18 @@ std::vector<Route> submit_routes(Service& service) {
                      {200, "Finished within the time that Prefer gave", "application/json", "Report"},
                      bad_spec,
                      {429, "The queue is full; Retry-After says when to come again", "application/problem+json",
-                      "Problem"}},
-         .handle = [&service](const Request& request) { return post_report(service, request); }},
+                      "Problem"},
+                     {507, "There is no room for reports", "application/problem+json", "Problem"}},
+         .handle = [&service](const Request& request) { return post_report(service, request); },
+         .lane = Lane::specs},
         {.method = "POST",
          .pattern = "/api/v1/specs/validate",
          .id = "validateSpec",
          .summary = "Check a spec and fill in its defaults",
          .body_schema = "Spec",
          .replies = {{200, "The normalised spec", "application/json", "Spec"}, bad_spec},
-         .handle = [&service](const Request& request) { return validate_spec(service, request); }},
+         .handle = [&service](const Request& request) { return validate_spec(service, request); },
+         .lane = Lane::specs},
     };
 }
 

@@ -7,7 +7,8 @@ namespace sheer::http {
 /// What one connection may take, and how many there may be.
 struct Limits {
     int max_connections = 256;
-    int threads = 4;  ///< that run handlers
+    int max_streams_per_client = 64;  ///< answers to one address that last: events, and requests that wait for a report
+    int threads = 4;                  ///< that run handlers
     std::uint32_t header_bytes = 16 << 10;
     std::uint64_t body_bytes = 1 << 20;
     std::uint64_t drain_bytes =

@@ -1,5 +1,7 @@
 #include "server/http/message.h"
 
+#include <algorithm>
+
 #include "server/http/text.h"
 
 namespace sheer::http {
@@ -8,6 +10,23 @@ std::optional<std::string> Headers::find(std::string_view name) const {
     for (const auto& [field, value] : m_fields)
         if (equal_ignoring_case(field, name)) return value;
     return std::nullopt;
+}
+
+std::optional<std::string> Headers::joined(std::string_view name) const {
+    std::optional<std::string> all;
+    for (const auto& [field, value] : m_fields)
+        if (equal_ignoring_case(field, name)) all = all ? *all + ", " + value : value;
+    return all;
+}
+
+std::size_t Headers::count(std::string_view name) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(m_fields, [&](const auto& field) { return equal_ignoring_case(field.first, name); }));
+}
+
+void Headers::set(std::string_view name, std::string value) {
+    std::erase_if(m_fields, [&](const auto& field) { return equal_ignoring_case(field.first, name); });
+    m_fields.emplace_back(name, std::move(value));
 }
 
 Response text_response(int status, std::string body, std::string media_type) {

@@ -20,10 +20,29 @@ class Headers {
     /// The first value, or nothing.
     std::optional<std::string> find(std::string_view name) const;
     bool contains(std::string_view name) const { return find(name).has_value(); }
+    /// The values of all fields of this name as one list (RFC 9110, 5.3), or nothing.
+    std::optional<std::string> joined(std::string_view name) const;
+    std::size_t count(std::string_view name) const;
+    /// In place of all fields of this name.
+    void set(std::string_view name, std::string value);
     const std::vector<std::pair<std::string, std::string>>& fields() const { return m_fields; }
 
   private:
     std::vector<std::pair<std::string, std::string>> m_fields;
+};
+
+/// Who makes an answer. What only says that the service lives shares nothing with those who work.
+enum class Lane {
+    at_once,  ///< the thread of the connections: nothing that waits for anything
+    pool,     ///< the threads for answers
+    specs     ///< threads of their own for specs: to check one can take seconds
+};
+
+/// How a request is treated, as far as its method and target say.
+struct Handling {
+    std::optional<std::uint64_t> body_bytes;  ///< the longest body, or nothing for the general limit
+    Lane lane = Lane::pool;
+    bool is_probe = false;  ///< answered also where there is no room for anything else
 };
 
 struct Request {

@@ -140,6 +140,7 @@ json list_schema() {
     properties["methods"] = {{"type", "array"}, {"items", text_schema()}};
     properties["verdict"] = nullable("string");
     properties["preview"] = nullable("object");
+    properties["broken"] = {{"type", "string"}, {"description", "what of it cannot be read any more"}};
     const json line = object_schema(properties, {"id", "url", "status", "progress", "created_at", "title"});
     return object_schema({{"reports", {{"type", "array"}, {"items", line}}}, {"next_cursor", nullable("string")}},
                          {"reports", "next_cursor"});
@@ -204,6 +205,7 @@ json pixel_schema() {
 json asset_schema() {
     json properties = {{"bytes", {{"type", "integer"}}}, {"created_at", {{"type", "string"}, {"format", "date-time"}}}};
     for (const char* name : {"sha256", "type", "media_type", "name", "url"}) properties[name] = text_schema();
+    properties["broken"] = {{"type", "string"}, {"description", "what of it is not there any more"}};
     json schema = object_schema(properties, {"sha256", "type", "media_type", "name", "bytes", "created_at", "url"});
     schema["description"] = "and what the check of its kind found, such as width and height of a picture";
     return schema;
@@ -238,7 +240,8 @@ json problem_schema() {
                           {"title", text_schema()},
                           {"status", {{"type", "integer"}}},
                           {"detail", text_schema()},
-                          {"errors", {{"type", "array"}, {"items", error}}}},
+                          {"errors", {{"type", "array"}, {"maxItems", max_told_errors}, {"items", error}}},
+                          {"error_count", {{"type", "integer"}, {"description", "of all errors, told or not"}}}},
                          {"type", "title", "status", "detail"});
 }
 

@@ -1,5 +1,6 @@
 #include "server/http/problem.h"
 
+#include <algorithm>
 #include <map>
 
 namespace sheer::http {
@@ -18,6 +19,8 @@ const char* status_phrase(int status) {
                                                     {404, "Not Found"},
                                                     {405, "Method Not Allowed"},
                                                     {409, "Conflict"},
+                                                    {410, "Gone"},
+                                                    {412, "Precondition Failed"},
                                                     {413, "Content Too Large"},
                                                     {415, "Unsupported Media Type"},
                                                     {421, "Misdirected Request"},
@@ -25,15 +28,22 @@ const char* status_phrase(int status) {
                                                     {429, "Too Many Requests"},
                                                     {431, "Request Header Fields Too Large"},
                                                     {500, "Internal Server Error"},
-                                                    {503, "Service Unavailable"}};
+                                                    {501, "Not Implemented"},
+                                                    {503, "Service Unavailable"},
+                                                    {505, "HTTP Version Not Supported"},
+                                                    {507, "Insufficient Storage"}};
     const auto found = phrases.find(status);
     return found == phrases.end() ? "Unknown" : found->second;
 }
 
-Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors) {
+Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors,
+                 std::size_t error_count) {
     json body = {{"type", "about:blank"}, {"title", status_phrase(status)}, {"status", status}, {"detail", detail}};
-    for (const FieldError& error : errors)
+    for (const FieldError& error : errors) {
+        if (body["errors"].size() == max_told_errors) break;
         body["errors"].push_back({{"pointer", error.pointer}, {"detail", error.detail}});
+    }
+    if (!errors.empty()) body["error_count"] = std::max(error_count, errors.size());
     return text_response(status, body.dump(-1, ' ', false, json::error_handler_t::replace), "application/problem+json");
 }
 

@@ -9,8 +9,9 @@
 namespace sheer::http {
 
 /// An answer that says what is wrong, as RFC 9457 problem+json. `errors` names wrong fields of the body by JSON
-/// pointer.
-Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors = {});
+/// pointer, at most max_told_errors of them; `error_count` says how many there are.
+Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors = {},
+                 std::size_t error_count = 0);
 
 /// Ends a handler with a problem.
 class Problem : public std::runtime_error {

@@ -38,7 +38,12 @@ struct Route {
     Handler handle;
     std::vector<std::string> body_types;  ///< media types of a body that is not JSON
     std::uint64_t body_bytes = 0;         ///< longest body; 0: what the service allows any
-    int wrong_query_status = 400;         ///< what a query with wrong, missing or unknown fields is answered with
+    Lane lane = Lane::pool;
+    bool is_probe = false;  ///< asked by machines that know only an address: answered for any Host
+    /// The ETag that the target has now; throws Problem (404) if it is not there. Only of calls that change something:
+    /// it is what their preconditions are held against.
+    std::function<std::string(const Request&)> etag;
+    int wrong_query_status = 400;  ///< what a query with wrong, missing or unknown fields is answered with
 };
 
 struct Match {

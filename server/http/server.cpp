@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -25,6 +26,8 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr auto token = asio::as_tuple(asio::use_awaitable);
+// Connections beyond the limit. They are for probes, which ask one thing and go.
+constexpr std::ptrdiff_t spare_seats = 8;
 
 tcp::endpoint tcp_endpoint(const Endpoint& endpoint) {
     return {asio::ip::make_address(endpoint.address), endpoint.port};
@@ -32,9 +35,6 @@ tcp::endpoint tcp_endpoint(const Endpoint& endpoint) {
 
 asio::awaitable<void> serve(std::shared_ptr<Session> session) {
     co_await session->run();
-}
-asio::awaitable<void> turn_away(std::shared_ptr<Session> session) {
-    co_await session->refuse();
 }
 
 }  // namespace
@@ -67,22 +67,26 @@ std::string url_of(const Endpoint& endpoint) {
 
 class Server::Impl {
   public:
-    Impl(const Endpoint& endpoint, const Limits& limits, Answerer answer, BodyLimit body_limit,
-         std::function<std::int64_t()> change_counter)
+    Impl(const Endpoint& endpoint, const Limits& limits, Hooks hooks)
         : m_limits(limits),
-          m_changes(m_io, std::move(change_counter)),
+          m_reload(std::move(hooks.reload)),
+          m_changes(m_io, std::move(hooks.change_counter)),
           m_context{.limits = m_limits,
-                    .answer = std::move(answer),
-                    .body_limit = std::move(body_limit),
+                    .answer = std::move(hooks.answer),
+                    .handling = std::move(hooks.handling),
                     .pool = m_pool,
+                    .spec_pool = m_spec_pool,
                     .changes = m_changes,
+                    .lasting = LastingAnswers(m_limits),
                     .sessions = {},
                     .stopping = false,
                     .on_end = [this] { session_ended(); }},
           m_io(1),
           m_pool(static_cast<std::size_t>(limits.threads)),
+          m_spec_pool(static_cast<std::size_t>(std::max(1, limits.threads / 2))),
           m_acceptor(m_io, tcp_endpoint(endpoint)),
           m_signals(m_io, SIGINT, SIGTERM),
+          m_hangup(m_io, SIGHUP),
           m_stop_timer(m_io) {}
 
     ~Impl() {
@@ -97,14 +101,24 @@ class Server::Impl {
 
     void run() {
         asio::co_spawn(m_io, accept(), asio::detached);
+        await_hangup();
         m_signals.async_wait([this](boost::system::error_code error, int) {
             if (!error) stop();
         });
         m_io.run();
         m_pool.join();
+        m_spec_pool.join();
     }
 
   private:
+    void await_hangup() {
+        m_hangup.async_wait([this](boost::system::error_code error, int) {
+            if (error) return;
+            m_reload();
+            await_hangup();
+        });
+    }
+
     asio::awaitable<void> accept() {
         while (!m_context.stopping) {
             auto [error, socket] = co_await m_acceptor.async_accept(token);
@@ -116,10 +130,30 @@ class Server::Impl {
                 co_await pause.async_wait(token);
                 continue;
             }
-            const bool full = static_cast<int>(m_context.sessions.size()) >= m_limits.max_connections;
-            auto session = make_session(std::move(socket), m_context);
-            asio::co_spawn(m_io, full ? turn_away(session) : serve(session), asio::detached);
+            auto session = make_session(std::move(socket), free_seat(), m_context);
+            asio::co_spawn(m_io, serve(session), asio::detached);
         }
+    }
+
+    /// Where everything is taken, whoever waits for a request makes room.
+    Seat free_seat() {
+        const auto taken = [this](Seat seat) {
+            return std::ranges::count_if(m_context.sessions, [&](const Session* session) {
+                return !session->is_over() && session->seat() == seat;
+            });
+        };
+        if (taken(Seat::ordinary) < m_limits.max_connections || drop_idle(m_context.sessions)) return Seat::ordinary;
+        if (taken(Seat::spare) >= spare_seats) drop_oldest_spare();
+        return Seat::spare;
+    }
+
+    void drop_oldest_spare() {
+        Session* oldest = nullptr;
+        for (Session* session : m_context.sessions)
+            if (!session->is_over() && session->seat() == Seat::spare &&
+                (oldest == nullptr || session->begun() < oldest->begun()))
+                oldest = session;
+        if (oldest != nullptr) oldest->drop();
     }
 
     void stop() {
@@ -142,23 +176,24 @@ class Server::Impl {
         if (!m_context.stopping || !m_context.sessions.empty()) return;
         m_stop_timer.cancel();
         m_signals.cancel();
+        m_hangup.cancel();
     }
 
     const Limits m_limits;
+    const std::function<void()> m_reload;
     // Connections that were cut short end with m_io and still use these.
     Changes m_changes;
     SessionContext m_context;
     asio::io_context m_io;
     asio::thread_pool m_pool;
+    asio::thread_pool m_spec_pool;
     tcp::acceptor m_acceptor;
-    asio::signal_set m_signals;
+    asio::signal_set m_signals, m_hangup;
     asio::steady_timer m_stop_timer;
 };
 
-Server::Server(const Endpoint& endpoint, const Limits& limits, Answerer answer, BodyLimit body_limit,
-               std::function<std::int64_t()> change_counter) try
-    : m_impl(std::make_unique<Impl>(endpoint, limits, std::move(answer), std::move(body_limit),
-                                    std::move(change_counter))) {
+Server::Server(const Endpoint& endpoint, const Limits& limits, Hooks hooks) try
+    : m_impl(std::make_unique<Impl>(endpoint, limits, std::move(hooks))) {
 } catch (const boost::system::system_error& error) {
     throw std::runtime_error(
         fmt::format("cannot listen on {}:{}: {}", endpoint.address, endpoint.port, error.code().message()));

@@ -23,18 +23,24 @@ bool is_loopback(const Endpoint& endpoint);
 /// "http://127.0.0.1:8080"
 std::string url_of(const Endpoint& endpoint);
 
-/// The longest body that a request of this method and target may have, or nothing for the general limit. Called on the
-/// thread of the connections.
-using BodyLimit = std::function<std::optional<std::uint64_t>(std::string_view method, std::string_view target)>;
+/// How requests of this method and target are treated. Called on the thread of the connections.
+using HandlingOf = std::function<Handling(std::string_view method, std::string_view target)>;
 
 /// Speaks HTTP/1.1. Connections are served by the thread in `run`, answers are made by a pool.
 class Server {
   public:
     using Answerer = std::function<Answer(Request)>;
 
-    /// Listens at once; connections wait until `run`. `change_counter` is the store's. Throws std::runtime_error.
-    Server(const Endpoint& endpoint, const Limits& limits, Answerer answer, BodyLimit body_limit,
-           std::function<std::int64_t()> change_counter);
+    /// What the server asks of the rest of the program.
+    struct Hooks {
+        Answerer answer;
+        HandlingOf handling;
+        std::function<std::int64_t()> change_counter;  ///< the store's
+        std::function<void()> reload;                  ///< on SIGHUP; on the thread of the connections
+    };
+
+    /// Listens at once; connections wait until `run`. Throws std::runtime_error.
+    Server(const Endpoint& endpoint, const Limits& limits, Hooks hooks);
     ~Server();
 
     /// Where it listens, with the port that was found.

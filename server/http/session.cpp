@@ -12,7 +12,9 @@
 #include <charconv>
 #include <ctime>
 
+#include "server/http/application.h"
 #include "server/http/problem.h"
+#include "server/http/request_head.h"
 #include "server/http/text.h"
 
 namespace sheer::http {
@@ -29,6 +31,12 @@ namespace {
 
 constexpr auto token = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds linger_timeout{10};
+// What a request may take to arrive before it counts as slow, if somebody else needs its connection.
+constexpr std::chrono::seconds slow_header{1}, slow_body{10};
+// A connection that is new has not had the time to ask for anything.
+constexpr std::chrono::milliseconds newcomer_time{250};
+// On a connection beyond the limit, for a probe to say what it wants.
+constexpr std::chrono::seconds spare_timeout{2};
 
 /// Runs `work` on the pool and comes back to the connection's thread with what it gave.
 template <typename Work>
@@ -46,12 +54,11 @@ std::string http_date() {
     return {text.data(), std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc)};
 }
 
-Request plain_request(bhttp::request<bhttp::string_body>&& message) {
+Request request_without_body(const bhttp::request<bhttp::string_body>& message) {
     Request request;
     request.method = std::string(message.method_string());
     request.target = std::string(message.target());
     for (const auto& field : message) request.headers.add(std::string(field.name_string()), std::string(field.value()));
-    request.body = std::move(message.body());
     return request;
 }
 
@@ -67,12 +74,32 @@ std::optional<Response> problem_of(beast::error_code error) {
     return std::nullopt;
 }
 
+/// The count of an answer that lasts, if it may.
+class Lasting {
+  public:
+    Lasting(LastingAnswers& answers, const std::string& client)
+        : m_answers(answers), m_client(client), m_granted(answers.begin(client)) {}
+    Lasting(const Lasting&) = delete;
+    Lasting& operator=(const Lasting&) = delete;
+    ~Lasting() {
+        if (m_granted) m_answers.end(m_client);
+    }
+    bool is_granted() const { return m_granted; }
+
+  private:
+    LastingAnswers& m_answers;
+    std::string m_client;
+    bool m_granted;
+};
+
 class TcpSession : public Session {
   public:
-    TcpSession(tcp::socket socket, SessionContext& context)
-        : m_context(context), m_limits(context.limits), m_stream(std::move(socket)) {
+    TcpSession(tcp::socket socket, Seat seat, SessionContext& context)
+        : m_context(context), m_limits(context.limits), m_seat(seat), m_stream(std::move(socket)) {
         m_context.sessions.insert(this);
         beast::error_code ignored;
+        const tcp::endpoint client = m_stream.socket().remote_endpoint(ignored);
+        if (!ignored) m_client = client.address().to_string();
         m_stream.socket().set_option(tcp::no_delay(true), ignored);
     }
 
@@ -90,22 +117,22 @@ class TcpSession : public Session {
         close();
     }
 
-    asio::awaitable<void> refuse() override {
-        m_close = true;
-        Response response = problem(503, "There are too many connections.");
-        response.headers.add("Retry-After", "1");
-        co_await write_response(response);
-        close();
-    }
-
     void stop() override {
         if (m_idle) close();
     }
+
+    void drop() override { close(); }
+    Seat seat() const override { return m_seat; }
+    SteadyTime begun() const override { return m_begun; }
+    std::optional<SteadyTime> dispensable_from() const override { return m_dispensable_from; }
+    bool is_over() const override { return m_over; }
 
   private:
     using Parser = bhttp::request_parser<bhttp::string_body>;
 
     void close() {
+        m_over = true;
+        m_dispensable_from.reset();
         beast::error_code ignored;
         m_stream.socket().shutdown(tcp::socket::shutdown_both, ignored);
         m_stream.close();
@@ -113,25 +140,50 @@ class TcpSession : public Session {
 
     /// Returns whether the connection may be used again.
     asio::awaitable<bool> serve_one() {
+        m_head = m_close = false;
+        m_version = 11;
         const bool something = co_await wait_for_request();
         if (!something) co_return false;
         Parser parser;
         const beast::error_code header_error = co_await read_header(parser);
-        if (header_error) co_return co_await reject(header_error);
         m_head = parser.get().method() == bhttp::verb::head;
+        if (header_error) co_return co_await reject(problem_of(header_error));
         m_version = parser.get().version();
-        m_close = !parser.keep_alive();
-        const beast::error_code body_error = co_await read_body(parser);
-        if (body_error) co_return co_await reject(body_error);
-        Request request = plain_request(parser.release());
-        Answer answer = co_await on_pool(m_context.pool, [&] { return m_context.answer(std::move(request)); });
+        m_close = !parser.keep_alive() || m_seat == Seat::spare;
+        Request request = request_without_body(parser.get());
+        if (auto wrong = check_head(request, m_version)) co_return co_await reject(std::move(wrong));
+        const Handling handling = m_context.handling(request.method, request.target);
+        if (m_seat == Seat::spare && !handling.is_probe) co_return co_await reject(too_many_connections());
+        const beast::error_code body_error =
+            co_await read_body(parser, handling.body_bytes.value_or(m_limits.body_bytes));
+        if (body_error) co_return co_await reject(problem_of(body_error));
+        request.body = std::move(parser.get().body());
+        m_dispensable_from.reset();
+        Answer answer = co_await make_answer(std::move(request), handling.lane);
         co_return co_await write_answer(std::move(answer));
+    }
+
+    asio::awaitable<Answer> make_answer(Request request, Lane lane) {
+        if (lane == Lane::at_once) co_return m_context.answer(std::move(request));
+        asio::thread_pool& pool = lane == Lane::specs ? m_context.spec_pool : m_context.pool;
+        co_return co_await on_pool(pool, [&] { return m_context.answer(std::move(request)); });
+    }
+
+    static Response too_many_connections() {
+        Response response = problem(503, "There are too many connections.");
+        response.headers.add("Retry-After", "1");
+        return response;
+    }
+
+    Milliseconds at_most(Milliseconds limit) const {
+        return m_seat == Seat::spare ? std::min<Milliseconds>(limit, spare_timeout) : limit;
     }
 
     asio::awaitable<bool> wait_for_request() {
         if (m_buffer.size() > 0) co_return true;
         m_idle = true;
-        m_stream.expires_after(m_limits.idle_timeout);
+        m_dispensable_from = std::max(SteadyClock::now(), m_begun + newcomer_time);
+        m_stream.expires_after(at_most(m_limits.idle_timeout));
         auto [error, count] = co_await m_stream.async_read_some(m_buffer.prepare(m_limits.header_bytes), token);
         m_idle = false;
         m_buffer.commit(count);
@@ -143,15 +195,14 @@ class TcpSession : public Session {
         // The declared length is held against the limit once the header is there, so that the answer can be a clean
         // 413.
         parser.body_limit(boost::none);
-        m_stream.expires_after(m_limits.header_timeout);
+        m_dispensable_from = SteadyClock::now() + slow_header;
+        m_stream.expires_after(at_most(m_limits.header_timeout));
         auto [error, count] = co_await bhttp::async_read_header(m_stream, m_buffer, parser, token);
         co_return error;
     }
 
-    asio::awaitable<beast::error_code> read_body(Parser& parser) {
+    asio::awaitable<beast::error_code> read_body(Parser& parser, std::uint64_t limit) {
         const auto length = parser.content_length();
-        const std::string_view method = parser.get().method_string(), target = parser.get().target();
-        const std::uint64_t limit = m_context.body_limit(method, target).value_or(m_limits.body_bytes);
         if (length && *length > limit) co_return bhttp::error::body_limit;
         parser.body_limit(limit);
         if (equal_ignoring_case(std::string(parser.get()[bhttp::field::expect]), "100-continue")) {
@@ -159,6 +210,7 @@ class TcpSession : public Session {
             const bool sent = co_await write_text(go_on);
             if (!sent) co_return bhttp::error::partial_message;
         }
+        m_dispensable_from = SteadyClock::now() + slow_body;
         m_stream.expires_after(m_limits.body_timeout);
         auto [error, count] = co_await bhttp::async_read(m_stream, m_buffer, parser, token);
         co_return error;
@@ -166,15 +218,15 @@ class TcpSession : public Session {
 
     /// Says what is wrong and ends the connection so that the sender gets to read it: closing with unread data would
     /// reset the connection, and with it the answer.
-    asio::awaitable<bool> reject(beast::error_code error) {
-        const std::optional<Response> response = problem_of(error);
+    asio::awaitable<bool> reject(std::optional<Response> response) {
         if (!response) co_return false;
         m_close = true;
         co_await write_response(*response);
         beast::error_code ignored;
         m_stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
         std::array<char, 65536> dropped;
-        m_stream.expires_after(linger_timeout);
+        m_dispensable_from = SteadyClock::now();
+        m_stream.expires_after(at_most(linger_timeout));
         for (std::uint64_t total = 0; total < m_limits.drain_bytes;) {
             auto [end, count] = co_await m_stream.async_read_some(asio::buffer(dropped), token);
             if (end) break;
@@ -190,7 +242,9 @@ class TcpSession : public Session {
     }
 
     asio::awaitable<bool> write_when_ready(Waiting& waiting) {
-        const auto deadline = SteadyClock::now() + waiting.limit;
+        const Lasting lasting(m_context.lasting, m_client);
+        // One of too many does not wait: it is told how things are now.
+        const auto deadline = SteadyClock::now() + (lasting.is_granted() ? waiting.limit : Milliseconds(0));
         while (true) {
             const std::uint64_t seen = m_context.changes.generation();
             std::optional<Response> response = co_await on_pool(m_context.pool, [&] { return waiting.ready(); });
@@ -204,6 +258,8 @@ class TcpSession : public Session {
     }
 
     asio::awaitable<bool> write_events(EventStream& stream) {
+        const Lasting lasting(m_context.lasting, m_client);
+        if (!lasting.is_granted()) co_return co_await write_response(too_many_streams());
         m_close = true;
         const bool begun = co_await write_stream_head(stream.head);
         if (!begun || m_head) co_return false;
@@ -223,6 +279,12 @@ class TcpSession : public Session {
             if (!there) co_return false;
         }
         co_return false;
+    }
+
+    static Response too_many_streams() {
+        Response response = finished(problem(429, "Too many streams of events are open; close one, or ask again."));
+        response.headers.add("Retry-After", "10");
+        return response;
     }
 
     /// Returns false if the other side has gone meanwhile.
@@ -318,6 +380,11 @@ class TcpSession : public Session {
 
     SessionContext& m_context;
     const Limits& m_limits;
+    const Seat m_seat;
+    const SteadyTime m_begun = SteadyClock::now();
+    std::string m_client;  ///< its address
+    std::optional<SteadyTime> m_dispensable_from;
+    bool m_over = false;
     beast::tcp_stream m_stream;
     beast::flat_buffer m_buffer;
     unsigned m_version = 11;
@@ -329,8 +396,35 @@ class TcpSession : public Session {
 
 }  // namespace
 
-std::shared_ptr<Session> make_session(tcp::socket socket, SessionContext& context) {
-    return std::make_shared<TcpSession>(std::move(socket), context);
+LastingAnswers::LastingAnswers(const Limits& limits)
+    : m_max(std::max(1, limits.max_connections * 3 / 4)), m_max_per_client(limits.max_streams_per_client) {}
+
+bool LastingAnswers::begin(const std::string& client) {
+    const auto known = m_by_client.find(client);
+    if (m_count >= m_max || (known != m_by_client.end() && known->second >= m_max_per_client)) return false;
+    ++m_count;
+    ++m_by_client[client];
+    return true;
+}
+
+void LastingAnswers::end(const std::string& client) {
+    --m_count;
+    if (--m_by_client[client] == 0) m_by_client.erase(client);
+}
+
+std::shared_ptr<Session> make_session(tcp::socket socket, Seat seat, SessionContext& context) {
+    return std::make_shared<TcpSession>(std::move(socket), seat, context);
+}
+
+bool drop_idle(const std::set<Session*>& sessions) {
+    Session* longest = nullptr;
+    for (Session* session : sessions) {
+        if (session->is_over() || session->seat() == Seat::spare || !session->dispensable_from()) continue;
+        if (longest == nullptr || *session->dispensable_from() < *longest->dispensable_from()) longest = session;
+    }
+    if (longest == nullptr || *longest->dispensable_from() > SteadyClock::now()) return false;
+    longest->drop();
+    return true;
 }
 
 }  // namespace sheer::http

@@ -1,9 +1,13 @@
 #pragma once
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string>
 
 #include "server/http/changes.h"
 #include "server/http/limits.h"
@@ -14,30 +18,62 @@ namespace sheer::http {
 
 class Session;
 
+/// Counts the answers that last: streams of events, and requests that wait for a report. Each holds a connection for as
+/// long as its client likes, so one client gets some only, and all together leave connections for others.
+class LastingAnswers {
+  public:
+    explicit LastingAnswers(const Limits& limits);
+    /// Whether one more may begin for this client; `end` must follow if so.
+    bool begin(const std::string& client);
+    void end(const std::string& client);
+
+  private:
+    int m_max, m_max_per_client;
+    int m_count = 0;
+    std::map<std::string, int> m_by_client;
+};
+
 /// What the connections of a server share. Used on the io_context's thread only.
 struct SessionContext {
     const Limits& limits;
     std::function<Answer(Request)> answer;  ///< called on the pool
-    BodyLimit body_limit;
+    HandlingOf handling;
     boost::asio::thread_pool& pool;
+    boost::asio::thread_pool& spec_pool;
     Changes& changes;
+    LastingAnswers lasting;
     std::set<Session*> sessions;
     bool stopping = false;
     std::function<void()> on_end;  ///< called when a session ended
 };
 
+/// A connection beyond the limit has a spare seat: one probe is answered on it, anything else with 503.
+enum class Seat { ordinary, spare };
+
 /// One connection.
 class Session {
   public:
+    using SteadyTime = std::chrono::steady_clock::time_point;
+
     virtual ~Session() = default;
     /// Serves requests until either side ends the connection.
     virtual boost::asio::awaitable<void> run() = 0;
-    /// Answers 503 without reading, for one connection too many.
-    virtual boost::asio::awaitable<void> refuse() = 0;
     /// Ends it at once if it waits for a request, else after the answer that is on its way.
     virtual void stop() = 0;
+    /// Ends it at once.
+    virtual void drop() = 0;
+    virtual Seat seat() const = 0;
+    virtual SteadyTime begun() const = 0;
+    /// From when on it may be ended for the sake of another one: it waits for a request that does not come, or comes
+    /// slowly. Nothing while an answer is made or sent.
+    virtual std::optional<SteadyTime> dispensable_from() const = 0;
+    /// Whether it was ended, and only its destructor is yet to come.
+    virtual bool is_over() const = 0;
 };
 
-std::shared_ptr<Session> make_session(boost::asio::ip::tcp::socket socket, SessionContext& context);
+std::shared_ptr<Session> make_session(boost::asio::ip::tcp::socket socket, Seat seat, SessionContext& context);
+
+/// Ends the ordinary connection that has waited longest for a request, if there is one. Returns whether it did.
+bool drop_idle(const std::set<Session*>& sessions);
 
 }  // namespace sheer::http

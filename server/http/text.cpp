@@ -94,7 +94,7 @@ std::optional<int> preferred_wait_s(std::string_view prefer) {
 bool names_etag(std::string_view if_none_match, std::string_view etag) {
     return std::ranges::any_of(split(if_none_match, ','), [&](std::string_view candidate) {
         if (candidate.starts_with("W/")) candidate.remove_prefix(2);
-        return candidate == "*" || candidate == etag;
+        return candidate == "*" || (!etag.empty() && candidate == etag);
     });
 }
 

@@ -1,10 +1,12 @@
 #pragma once
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "server/jobs/status.h"
@@ -16,11 +18,34 @@ class StoreError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The disk did not do its part. Another time it may.
+class DiskError : public StoreError {
+    using StoreError::StoreError;
+};
+
+/// There is no room for what was to be written, on the disk or among its inodes. The text says so for those who asked.
+class StoreFull : public DiskError {
+    using DiskError::DiskError;
+};
+
+/// A kept file is missing, cannot be read, or has other bytes than its name says. The text says so for those who asked.
+class DamagedFile : public StoreError {
+    using StoreError::StoreError;
+};
+
+/// Whether a system's error means that there is no room: also what std::filesystem and the renderer's WriteError carry.
+inline bool means_full_disk(const std::error_code& code) {
+    return code == std::errc::no_space_on_device || code == std::error_code(EDQUOT, std::generic_category());
+}
+
 /// What a failed report tells its reader.
 struct JobError {
     std::string title;
     std::string detail;
 };
+
+/// The title of one that was rendered, or could have been.
+inline constexpr const char* report_not_kept = "The report could not be kept";
 
 /// The caller's name for a request, by which a repeated one is known.
 struct IdempotencyKey {
@@ -71,6 +96,7 @@ struct ReportSummary {
     nlohmann::json tags = nlohmann::json::object();
     std::string verdict;               ///< empty until done
     nlohmann::json preview = nullptr;  ///< image object of a done one, or null
+    std::string broken;                ///< what of this line cannot be read; empty if it is whole
 };
 
 /// Which reports to list; an empty field asks for all.
@@ -99,6 +125,7 @@ struct Lease {
     std::string spec;
     std::string spec_sha256;
     std::int64_t created_ms = 0;
+    int setbacks = 0;  ///< how often it was set back before
 };
 
 enum class LeaseState { held, cancel_requested, lost };
@@ -132,6 +159,7 @@ struct Asset {
     std::int64_t created_ms = 0;
     nlohmann::json facts;  ///< an object of what its check found
     std::filesystem::path path;
+    std::string broken;  ///< what of it is not there any more; empty if it is whole as far as nobody read its bytes
 };
 
 enum class RemoveAssetResult { not_found, in_use, removed };
@@ -151,10 +179,15 @@ class Store {
     /// Cancels a queued report, asks the worker to cancel a running one, deletes a final one with the pictures that no
     /// other report names.
     virtual RemoveResult remove(const std::string& id) = 0;
+    /// The bytes were read and have this hash. Throws DamagedFile.
     virtual std::optional<Blob> find_blob(const std::string& sha256) = 0;
-    /// Keeps an asset with its bytes; does nothing if it is there already. `asset.path` means nothing here.
+    /// Keeps an asset with its bytes; one that is there already keeps its name and type, and gets its bytes back if
+    /// they are damaged. `asset.path` means nothing here.
     virtual void add_asset(const Asset& asset, const std::string& bytes) = 0;
+    /// Its bytes are not read.
     virtual std::optional<Asset> find_asset(const std::string& sha256) = 0;
+    /// The same, and its bytes were read and have this hash. Throws DamagedFile.
+    virtual std::optional<Asset> find_whole_asset(const std::string& sha256) = 0;
     /// Newest first.
     virtual std::vector<Asset> list_assets(int limit) = 0;
     /// An asset that a queued or running report refers to stays.
@@ -163,10 +196,13 @@ class Store {
     virtual std::int64_t change_counter() = 0;
     /// When a worker last rendered something.
     virtual std::optional<std::int64_t> last_rendered_ms() = 0;
+    /// Why no report could be kept at present, for whoever asks; empty if there is room.
+    virtual std::string lack_of_room() = 0;
 
     // The workers' side.
 
-    /// The oldest queued job, now running under `owner`; jobs whose lease ran out are dealt with first.
+    /// The oldest queued job that is due, now running under `owner`; jobs whose lease ran out are dealt with first.
+    /// None while there is no room for reports.
     virtual std::optional<Lease> lease(const std::string& owner) = 0;
     /// Renews the lease and keeps the progress.
     virtual LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) = 0;
@@ -176,6 +212,13 @@ class Store {
     virtual bool commit(const Lease& lease, const FinishedReport& finished) = 0;
     /// Ends the attempt without a report; `retry` if another attempt could succeed.
     virtual void fail(const Lease& lease, const JobError& error, bool retry) = 0;
+    /// Ends the attempt of a renderer that died of a signal. Another one follows, as after `fail`, unless the same spec
+    /// made a renderer die of the same signal before.
+    virtual void fail_by_signal(const Lease& lease, const JobError& error, int signal) = 0;
+    /// Gives the job back because this machine could not do its part: a disk that is full or fails. It does not count
+    /// as an attempt; the next one comes later each time, and after LeaseRules::max_setbacks the job fails with
+    /// `error`.
+    virtual void set_back(const Lease& lease, const JobError& error, bool lacks_room) = 0;
     /// Ends the attempt because the job was cancelled.
     virtual void cancel(const Lease& lease) = 0;
     /// Gives the job back as if it had not been tried.

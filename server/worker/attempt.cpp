@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
 #include <fstream>
 
+#include "renderer/errors.h"
 #include "server/worker/report_folder.h"
 #include "server/worker/scratch.h"
 
@@ -22,10 +24,11 @@ constexpr auto question_interval = 200ms;
 constexpr int exit_check_failed = 1;
 
 void write_text(const fs::path& path, const std::string& text) {
+    errno = 0;
     std::ofstream file(path, std::ios::binary);
     file << text;
     file.close();
-    if (!file) throw StoreError("cannot write " + path.string());
+    if (!file) throw WriteError(errno == 0 ? EIO : errno, path.string());
 }
 
 }  // namespace
@@ -56,7 +59,7 @@ ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
 
 void Attempt::read_line(const std::string& line) {
     const ChildMessage message = read_child_message(line);
-    if (const auto* error = std::get_if<JobError>(&message)) m_error = *error;
+    if (const auto* error = std::get_if<ChildError>(&message)) m_error = *error;
     if (const auto* progress = std::get_if<ChildProgress>(&message)) {
         m_rendered = m_rendered || progress->fraction > m_progress.fraction;
         m_progress = *progress;
@@ -67,18 +70,29 @@ void Attempt::read_line(const std::string& line) {
 bool Attempt::keep_lease() {
     const SteadyTime now = std::chrono::steady_clock::now();
     const auto since_heartbeat = now - m_last_heartbeat;
-    const bool beat = since_heartbeat >= std::chrono::milliseconds(m_options.rules.heartbeat_ms) ||
-                      (m_unsaved_progress && since_heartbeat >= progress_interval);
-    if (beat) {
-        m_state = m_store.heartbeat(m_lease, m_progress.fraction, m_progress.stage);
-        if (m_rendered) m_store.note_rendered();
-        m_unsaved_progress = m_rendered = false;
-        m_last_heartbeat = now;
+    const bool due = since_heartbeat >= std::chrono::milliseconds(m_options.rules.heartbeat_ms) ||
+                     (m_unsaved_progress && since_heartbeat >= progress_interval);
+    if (due) {
+        beat(now);
     } else if (now - m_last_question >= question_interval) {
         m_state = m_store.state(m_lease);
         m_last_question = now;
     }
     return m_state == LeaseState::held;
+}
+
+/// A disk that refuses a heartbeat does not stop the rendering as long as nobody else can have got the job.
+void Attempt::beat(SteadyTime now) {
+    m_last_heartbeat = now;
+    try {
+        m_state = m_store.heartbeat(m_lease, m_progress.fraction, m_progress.stage);
+        if (m_rendered) m_store.note_rendered();
+        m_unsaved_progress = m_rendered = false;
+        m_lease_kept = now;
+    } catch (const DiskError& error) {
+        spdlog::warn("job {}: no heartbeat: {}", m_lease.id, error.what());
+        if (now - m_lease_kept > std::chrono::milliseconds(m_options.rules.lease_ms)) m_state = LeaseState::lost;
+    }
 }
 
 void Attempt::conclude(const ChildResult& result, const fs::path& out) {
@@ -105,12 +119,14 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
 void Attempt::conclude_failure(const ExitStatus& status) {
     if (status.signal != 0) {
         spdlog::error("job {}: the renderer died (signal {})", m_lease.id, status.signal);
-        m_store.fail(m_lease, {"Rendering failed", fmt::format("The renderer died (signal {}).", status.signal)}, true);
+        m_store.fail_by_signal(
+            m_lease, {"Rendering failed", fmt::format("The renderer died (signal {}).", status.signal)}, status.signal);
         return;
     }
     const JobError unexplained{"Rendering failed", fmt::format("The renderer ended with exit code {}.", status.code)};
-    const JobError error = m_error.value_or(unexplained);
+    const JobError error = m_error ? m_error->error : unexplained;
     spdlog::error("job {}: exit code {}: {}: {}", m_lease.id, status.code, error.title, error.detail);
+    if (m_error && m_error->is_of_disk) return m_store.set_back(m_lease, error, m_error->lacks_room);
     m_store.fail(m_lease, error, false);
 }
 

@@ -21,6 +21,7 @@ class Attempt {
     ChildRun child_run(const std::filesystem::path& spec, const std::filesystem::path& out);
     void read_line(const std::string& line);
     bool keep_lease();
+    void beat(SteadyTime now);
     void conclude(const ChildResult& result, const std::filesystem::path& out);
     void conclude_failure(const ExitStatus& status);
 
@@ -30,11 +31,12 @@ class Attempt {
     const Lease& m_lease;
     StopSignal& m_stop;
     ChildProgress m_progress;
-    std::optional<JobError> m_error;  ///< what the child said went wrong
+    std::optional<ChildError> m_error;  ///< what the child said went wrong
     bool m_unsaved_progress = false;
     bool m_rendered = false;  ///< whether progress was made since the last heartbeat
     LeaseState m_state = LeaseState::held;
     SteadyTime m_last_heartbeat{};
+    SteadyTime m_lease_kept = std::chrono::steady_clock::now();  ///< when the store last heard from us
     SteadyTime m_last_question{};
 };
 

@@ -26,12 +26,15 @@ std::string text_of(const json& object, const char* key) {
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-JobError read_error(const json& error) {
-    static const std::map<std::string, std::string> titles{{"spec", "The spec is wrong"},
-                                                           {"unsupported", "Not supported on this device"}};
-    const auto title = titles.find(text_of(error, "kind"));
-    return {title == titles.end() ? "Rendering failed" : title->second,
-            shortened(text_of(error, "detail"), max_detail_bytes)};
+ChildError read_error(const json& error) {
+    static const std::map<std::string, std::string> titles{
+        {"spec", "The spec is wrong"}, {"storage", report_not_kept}, {"unsupported", "Not supported on this device"}};
+    const std::string kind = text_of(error, "kind");
+    const auto title = titles.find(kind);
+    return {.error = {title == titles.end() ? "Rendering failed" : title->second,
+                      shortened(text_of(error, "detail"), max_detail_bytes)},
+            .is_of_disk = kind == "storage",
+            .lacks_room = error.value("full", json()) == true};
 }
 
 }  // namespace

@@ -11,10 +11,17 @@ struct ChildProgress {
     std::string stage;
 };
 
-/// Nothing: a line that says neither.
-using ChildMessage = std::variant<std::monostate, ChildProgress, JobError>;
+struct ChildError {
+    JobError error;
+    bool is_of_disk = false;  ///< not the job's fault: the disk refused a file
+    bool lacks_room = false;  ///< because it is full
+};
 
-/// Reads a line of `sheer render`: {"progress": 0.4, "stage": "..."} or {"error": {"kind": "...", "detail": "..."}}.
+/// Nothing: a line that says neither.
+using ChildMessage = std::variant<std::monostate, ChildProgress, ChildError>;
+
+/// Reads a line of `sheer render`: {"progress": 0.4, "stage": "..."} or {"error": {"kind": "...", "detail": "..."}}; an
+/// error of the kind "storage" may say "full": true.
 ChildMessage read_child_message(const std::string& line);
 
 }  // namespace sheer

@@ -45,6 +45,8 @@ std::vector<char*> argument_pointers(std::string& name, std::vector<std::string>
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
     std::signal(SIGPIPE, SIG_DFL);
+    // The service reloads its configuration; its processes go on, and so do theirs, which inherit this.
+    std::signal(SIGHUP, SIG_IGN);
     if (can_limit_memory && options.memory_limit_bytes > 0) {
         const rlimit limit{options.memory_limit_bytes, options.memory_limit_bytes};
         setrlimit(RLIMIT_AS, &limit);

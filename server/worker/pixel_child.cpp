@@ -48,11 +48,11 @@ PixelAnswer take_pixel_apart(const std::string& report, const PixelPlace& place,
                 .too_slow = true};
     if (result.status.code == 0 && line.starts_with('{')) return {.json = line};
     const ChildMessage message = read_child_message(line);
-    const auto* error = std::get_if<JobError>(&message);
+    const auto* error = std::get_if<ChildError>(&message);
     if (error && result.status.code == exit_bad_spec)
-        return {.refusal = fmt::format("The report cannot be rendered again here: {}", error->detail)};
+        return {.refusal = fmt::format("The report cannot be rendered again here: {}", error->error.detail)};
     throw std::runtime_error(fmt::format("sheer pixel ended with exit code {}, signal {}: {}", result.status.code,
-                                         result.status.signal, error ? error->detail : "no message"));
+                                         result.status.signal, error ? error->error.detail : "no message"));
 }
 
 }  // namespace sheer

@@ -11,6 +11,7 @@ namespace sheer {
 namespace {
 
 constexpr std::chrono::seconds probe_time_limit{30};
+constexpr std::chrono::milliseconds disk_pause{500};
 
 }  // namespace
 
@@ -20,14 +21,23 @@ Worker::Worker(Store& store, WorkerOptions options, ClockMs clock)
 void Worker::run(StopSignal& stop) {
     sweep_scratch(m_options.data / "scratch", m_store);
     while (!stop.requested()) {
-        if (run_next(stop)) {
-            m_next_probe = std::chrono::steady_clock::now() + m_options.probe_interval;
-        } else if (std::chrono::steady_clock::now() >= m_next_probe) {
-            probe(stop);
-            m_next_probe = std::chrono::steady_clock::now() + m_options.probe_interval;
-        } else {
-            wait_readable({stop.descriptor()}, static_cast<int>(m_options.poll_interval.count()));
+        try {
+            work(stop);
+        } catch (const DiskError& error) {
+            spdlog::error("the archive cannot be used: {}", error.what());
+            wait_readable({stop.descriptor()}, static_cast<int>(disk_pause.count()));
         }
+    }
+}
+
+void Worker::work(StopSignal& stop) {
+    if (run_next(stop)) {
+        m_next_probe = std::chrono::steady_clock::now() + m_options.probe_interval;
+    } else if (std::chrono::steady_clock::now() >= m_next_probe) {
+        m_next_probe = std::chrono::steady_clock::now() + m_options.probe_interval;
+        probe(stop);
+    } else {
+        wait_readable({stop.descriptor()}, static_cast<int>(m_options.poll_interval.count()));
     }
 }
 
@@ -41,9 +51,29 @@ bool Worker::run_next(StopSignal& stop) {
 void Worker::attempt(const Lease& lease, StopSignal& stop) {
     try {
         Attempt(m_store, m_options, m_clock, lease, stop).run();
+    } catch (const DiskError& error) {
+        spdlog::error("job {}: {}", lease.id, error.what());
+        const bool full = dynamic_cast<const StoreFull*>(&error) != nullptr;
+        set_back(lease, {report_not_kept, full ? "The archive's disk is full." : "The archive's disk fails."}, full,
+                 stop);
+    } catch (const std::system_error& error) {
+        // Of the scratch folder and of processes that could not be started.
+        spdlog::error("job {}: {}", lease.id, error.what());
+        set_back(lease, {report_not_kept, error.code().message() + "."}, means_full_disk(error.code()), stop);
     } catch (const std::exception& error) {
         spdlog::error("job {}: {}", lease.id, error.what());
-        m_store.fail(lease, {"The report could not be kept", "The service's log says why."}, true);
+        m_store.fail(lease, {report_not_kept, "The service's log says why."}, true);
+    }
+}
+
+void Worker::set_back(const Lease& lease, const JobError& error, bool lacks_room, StopSignal& stop) {
+    while (!stop.requested()) {
+        try {
+            return m_store.set_back(lease, error, lacks_room);
+        } catch (const DiskError& again) {
+            spdlog::error("job {} cannot be given back yet: {}", lease.id, again.what());
+            wait_readable({stop.descriptor()}, static_cast<int>(disk_pause.count()));
+        }
     }
 }
 

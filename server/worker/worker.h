@@ -35,7 +35,11 @@ class Worker {
     void probe(StopSignal& stop);
 
   private:
+    /// What to do next, or nothing but to wait.
+    void work(StopSignal& stop);
     void attempt(const Lease& lease, StopSignal& stop);
+    /// Until the store takes it, or the lease is lost.
+    void set_back(const Lease& lease, const JobError& error, bool lacks_room, StopSignal& stop);
 
     Store& m_store;
     WorkerOptions m_options;

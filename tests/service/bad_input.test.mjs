@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { connect } from "node:net";
 import { after, before, test } from "node:test";
-import { assert_problem, QUICK, Service, sleep } from "./service.mjs";
+import { assert_problem, QUICK, Service, sleep, talk } from "./service.mjs";
 
 const service = new Service({ workers: 0, allowed_hosts: ["sheer.test"], http: { header_timeout_s: 0.5, body_timeout_s: 0.5 } });
 before(() => service.start());
@@ -30,6 +30,11 @@ const bad_specs = [
   ["no scene", { methods: ["b2f"] }, "/scene"],
   ["no object", [], ""],
   ["null", null, ""],
+  ["a number for an image", { ...QUICK, image: 1 }, "/image"],
+  ["a number for the timing", { ...QUICK, timing: 1 }, "/timing"],
+  ["a list for a scene", { ...QUICK, scene: [] }, "/scene"],
+  ["numbers for layers", { ...QUICK, scene: { type: "layers", layers: [1, "x"] } }, "/scene/layers/1"],
+  ["a text for checks", { ...QUICK, checks: "x" }, "/checks"],
 ];
 
 for (const [name, spec, pointer] of bad_specs) {
@@ -42,6 +47,21 @@ for (const [name, spec, pointer] of bad_specs) {
     await assert_nothing_stored();
   });
 }
+
+test("422 for a key that is there twice", async () => {
+  const twice = JSON.stringify(QUICK).replace('"width":16', '"width":16,"width":17');
+  const problem = await assert_problem(await service.post(twice), 422);
+  assert.deepEqual(problem.errors.map((error) => error.pointer), ["/image/width"]);
+  await assert_nothing_stored();
+});
+
+test("a hundred errors are told and all are counted", async () => {
+  const spec = { ...QUICK, scene: { type: "layers", layers: Array.from({ length: 4096 }, () => ({ depth: "x", alpha: 2 })) } };
+  const response = await service.post(spec);
+  const problem = await assert_problem(response, 422);
+  assert.equal(problem.errors.length, 100);
+  assert.equal(problem.error_count, 8192);
+});
 
 test("every wrong field is named at once", async () => {
   const spec = { ...QUICK, spam: 1, methods: ["magic"], image: { width: -1, height: "x" } };
@@ -61,6 +81,7 @@ test("validation fills in the defaults", async () => {
 });
 
 for (const [name, body] of [["no JSON", "{"], ["nothing", ""], ["broken UTF-8", Buffer.from([0x22, 0xff, 0x22])],
+                            ["something behind it", `${JSON.stringify(QUICK)}\0{`],
                             ["a deep nest", "[".repeat(500_000)], ["a huge number", '{"a": 1e999}']]) {
   test(`400 for ${name}`, async () => {
     const response = await fetch(`${service.api}/reports`, { method: "POST", body, headers: { "Content-Type": "application/json" } });
@@ -105,35 +126,63 @@ test("pages of other sites are refused", async () => {
   await assert_problem(await post({ Host: rebound, Origin: `http://${rebound}` }), 421);
   await assert_problem(await service.raw("GET", "/api/v1/reports", { Host: rebound }), 421);
   await assert_problem(await service.raw("DELETE", "/api/v1/reports/x", { Origin: "http://evil.example" }), 403);
-  assert.equal((await service.raw("GET", "/healthz", { Host: "localhost" })).status, 200);
-  assert.equal((await service.raw("GET", "/healthz", { Host: "sheer.test" })).status, 200);
+  assert.equal((await service.raw("GET", "/healthz", { Host: rebound })).status, 200);
+  assert.equal((await service.raw("GET", "/readyz", { Host: "10.42.0.7" })).status, 503);
+  assert.equal((await service.raw("GET", "/api/v1/methods", { Host: "localhost" })).status, 200);
+  assert.equal((await service.raw("GET", "/api/v1/methods", { Host: "sheer.test" })).status, 200);
   await assert_nothing_stored();
 });
 
-/** Sends bytes as they are and reads until the service ends the connection. */
-function talk(bytes) {
-  return new Promise((resolve, reject) => {
-    const socket = connect(new URL(service.origin).port, "127.0.0.1", () => socket.write(bytes));
-    let text = "";
-    socket.on("data", (chunk) => { text += chunk; });
-    socket.on("close", () => resolve(text));
-    socket.on("error", reject);
-  });
-}
-
 test("what is not HTTP gets 400, what is too long 431, what is too slow nothing", async () => {
-  assert.match(await talk("nonsense\r\n\r\n"), /^HTTP\/1.1 400 /);
-  assert.equal(await talk("GET / HTTP/1.1\r\nHost: localhost\r\n"), "");
-  assert.equal(await talk("POST /api/v1/reports HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{"), "");
-  assert.match(await talk(`GET / HTTP/1.1\r\nHost: localhost\r\nX: ${"x".repeat(20_000)}\r\n\r\n`), /^HTTP\/1.1 431 /);
+  assert.match(await talk(service, "nonsense\r\n\r\n"), /^HTTP\/1.1 400 /);
+  assert.equal(await talk(service, "GET / HTTP/1.1\r\nHost: localhost\r\n"), "");
+  assert.equal(await talk(service, "POST /api/v1/reports HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{"), "");
+  assert.match(await talk(service, `GET / HTTP/1.1\r\nHost: localhost\r\nX: ${"x".repeat(20_000)}\r\n\r\n`), /^HTTP\/1.1 431 /);
   const smuggled = "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n";
-  assert.match(await talk(smuggled), /^HTTP\/1.1 400 /);
+  assert.match(await talk(service, smuggled), /^HTTP\/1.1 400 /);
   assert.equal((await fetch(`${service.origin}/healthz`)).status, 200);
+});
+
+test("a transfer encoding that is not chunked ends the connection, and nothing behind it is a request", async () => {
+  const post = (encoding) => `POST /api/v1/specs/validate HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: ${encoding}\r\n\r\n`;
+  const next = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  for (const [encoding, status] of [["xchunked", 501], ["gzip, chunked", 501], ["chunked, chunked", 400], ["", 400]]) {
+    const socket_text = await talk(service, post(encoding) + next);
+    assert.deepEqual(socket_text.match(/HTTP\/1.1 \d+/g), [`HTTP/1.1 ${status}`], encoding);
+  }
+});
+
+test("a target in absolute form is its path, and a request has a host", async () => {
+  const end = "Connection: close\r\n\r\n";
+  assert.match(await talk(service, `GET http://localhost/healthz HTTP/1.1\r\nHost: localhost\r\n${end}`), /^HTTP\/1.1 200 /);
+  assert.match(await talk(service, `GET http://sheer.test/api/v1/methods HTTP/1.1\r\nHost: x\r\n${end}`), /^HTTP\/1.1 200 /);
+  assert.match(await talk(service, `GET http://evil.example/api/v1/methods HTTP/1.1\r\nHost: localhost\r\n${end}`), /^HTTP\/1.1 421 /);
+  assert.match(await talk(service, `GET /healthz HTTP/1.1\r\n${end}`), /^HTTP\/1.1 400 /);
+  assert.match(await talk(service, "GET /healthz HTTP/1.0\r\n\r\n"), /^HTTP\/1.1 200 /);
+  assert.match(await talk(service, `GET /healthz HTTP/2.0\r\nHost: localhost\r\n${end}`), /^HTTP\/1.1 (400|505) /);
+});
+
+test("what is malformed after a HEAD is told why", async () => {
+  const text = await talk(service, "HEAD /healthz HTTP/1.1\r\nHost: localhost\r\n\r\nnonsense\r\n\r\n");
+  const [first, second] = text.split("\r\n\r\nHTTP/1.1 400 ");
+  assert.match(first, /^HTTP\/1.1 200 /);
+  assert.match(second, /"status":400/);
+});
+
+test("a deletion with a condition that does not hold cancels nothing", async () => {
+  const id = await service.submit(QUICK), path = `/api/v1/reports/${id}`;
+  await assert_problem(await service.raw("DELETE", path, { "If-None-Match": "*" }), 412);
+  await assert_problem(await service.raw("DELETE", path, { "If-Match": '"x"' }), 412);
+  assert.equal((await service.report(id)).status, "queued");
+  const { headers } = await service.raw("GET", path);
+  assert.equal((await service.raw("DELETE", path, { "If-Match": headers.etag })).status, 200);
+  assert.equal((await service.raw("DELETE", path)).status, 204);
+  await assert_problem(await service.raw("DELETE", "/api/v1/assets/a"), 404);
 });
 
 test("requests sent ahead are answered in order", async () => {
   const get = (path) => `GET ${path} HTTP/1.1\r\nHost: localhost\r\n`;
-  const text = await talk(`${get("/healthz")}\r\n${get("/nothing")}\r\n${get("/healthz")}Connection: close\r\n\r\n`);
+  const text = await talk(service, `${get("/healthz")}\r\n${get("/nothing")}\r\n${get("/healthz")}Connection: close\r\n\r\n`);
   assert.deepEqual(text.match(/HTTP\/1.1 \d+/g), ["HTTP/1.1 200", "HTTP/1.1 404", "HTTP/1.1 200"]);
 });
 

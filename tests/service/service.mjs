@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import http from "node:http";
+import { connect } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
@@ -72,12 +73,14 @@ export class Service {
     this.data = join(folder, "data");
     this.config = join(folder, "server.json");
     this.listen = "127.0.0.1:0";
+    this.wrapper = [];  // a command that starts the program
     writeFileSync(this.config, JSON.stringify(config));
   }
 
   async start(...more_arguments) {
     this.log = "";
-    this.process = spawn(PROGRAM, ["serve", "--listen", this.listen, "--data", this.data, "--config", this.config,
+    const [program, ...words] = [...this.wrapper, PROGRAM];
+    this.process = spawn(program, [...words, "serve", "--listen", this.listen, "--data", this.data, "--config", this.config,
                                    ...more_arguments], { stdio: ["ignore", "pipe", "pipe"] });
     this.process.stderr.on("data", (text) => { this.log += text; });
     this.ended = new Promise((resolve) => this.process.on("exit", (code, signal) => resolve({ code, signal })));
@@ -163,6 +166,18 @@ export class Service {
       request.end(body);
     });
   }
+}
+
+/** Sends bytes as they are and reads until the service ends the connection. */
+export function talk(service, bytes, limit_ms = 30_000) {
+  return new Promise((resolve, reject) => {
+    const socket = connect(new URL(service.origin).port, "127.0.0.1", () => socket.write(bytes));
+    let text = "";
+    socket.setTimeout(limit_ms, () => socket.destroy(new Error("the service does not end the connection")));
+    socket.on("data", (chunk) => { text += chunk; });
+    socket.on("close", () => resolve(text));
+    socket.on("error", (error) => (error.code === "ECONNRESET" || error.code === "EPIPE" ? resolve(text) : reject(error)));
+  });
 }
 
 /** Runs `body` with a started service and ends it whatever happens. */

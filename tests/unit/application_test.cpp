@@ -302,7 +302,7 @@ TEST_F(ApplicationTest, OurOwnFaultsAreNotExplainedToTheClient) {
     std::filesystem::remove(m_store.find_blob(sha256_hex("picture"))->path);
     const Response blob = get("/api/v1/blobs/" + sha256_hex("picture"));
     EXPECT_EQ(blob.status, 500);
-    EXPECT_EQ(std::get<std::string>(blob.body).find("archive"), std::string::npos);
+    EXPECT_EQ(std::get<std::string>(blob.body).find(m_folder.path().string()), std::string::npos);
 }
 
 TEST_F(ApplicationTest, APixelIsTakenApartInTheRunThatIsAskedFor) {

@@ -152,10 +152,12 @@ TEST(ChildMessageTest, Progress) {
 
 TEST(ChildMessageTest, Errors) {
     const auto unsupported =
-        std::get<JobError>(read_child_message(R"({"error": {"kind": "unsupported", "detail": "no textures"}})"));
+        std::get<ChildError>(read_child_message(R"({"error": {"kind": "unsupported", "detail": "no textures"}})"))
+            .error;
     EXPECT_EQ(unsupported.title, "Not supported on this device");
     EXPECT_EQ(unsupported.detail, "no textures");
-    EXPECT_EQ(std::get<JobError>(read_child_message(R"({"error": {"kind": "odd"}})")).title, "Rendering failed");
+    EXPECT_EQ(std::get<ChildError>(read_child_message(R"({"error": {"kind": "odd"}})")).error.title,
+              "Rendering failed");
 }
 
 TEST(ChildMessageTest, AnythingElseIsNothing) {

@@ -120,12 +120,15 @@ TEST_F(AssetStoreTest, AnArchiveOfVersionOneIsBroughtUpToDate) {
     const std::string id = submit("kept");
     {
         SQLite::Database database((m_folder.path() / "data" / "archive.sqlite").string(), SQLite::OPEN_READWRITE);
-        database.exec("DROP TABLE assets");
-        database.exec("PRAGMA user_version = 1");
+        database.exec("DROP TABLE assets; DROP INDEX reports_that_died; DROP INDEX reports_set_back");
+        for (const char* column : {"setbacks", "not_before_ms", "lacks_room", "died_of"})
+            database.exec(std::string("ALTER TABLE reports DROP COLUMN ") + column);
+        database.exec("PRAGMA user_version = 1; PRAGMA application_id = 0");
     }
     SqliteStore again(m_folder.path() / "data", m_rules, m_clock);
     EXPECT_TRUE(again.find(id));
     EXPECT_TRUE(again.list_assets(1).empty());
+    EXPECT_TRUE(again.lease("worker"));
 }
 
 class AssetCallsTest : public AssetStoreTest {
@@ -187,10 +190,10 @@ TEST_F(AssetCallsTest, OnlySoManyAreReadAtATime) {
 TEST_F(AssetCallsTest, TheLimitOfUploadsIsTheirOwn) {
     m_service.max_asset_bytes = 12345;
     m_application.emplace(http::make_guard(true, {}), http::make_router(m_service));
-    EXPECT_EQ(m_application->body_limit("POST", "/api/v1/assets?name=a"), 12345u);
-    EXPECT_EQ(m_application->body_limit("GET", "/api/v1/assets"), std::nullopt);
-    EXPECT_EQ(m_application->body_limit("POST", "/api/v1/reports"), std::nullopt);
-    EXPECT_EQ(m_application->body_limit("POST", "/nothing"), std::nullopt);
+    EXPECT_EQ(m_application->handling("POST", "/api/v1/assets?name=a").body_bytes, 12345u);
+    EXPECT_EQ(m_application->handling("GET", "/api/v1/assets").body_bytes, std::nullopt);
+    EXPECT_EQ(m_application->handling("POST", "/api/v1/reports").body_bytes, std::nullopt);
+    EXPECT_EQ(m_application->handling("POST", "/nothing").body_bytes, std::nullopt);
 }
 
 }  // namespace

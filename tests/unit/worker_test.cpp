@@ -88,6 +88,49 @@ TEST_F(WorkerTest, ARendererThatExplainsItselfIsNotTriedAgain) {
     EXPECT_EQ(error(id).detail, "no textures");
 }
 
+TEST_F(WorkerTest, AJobWhoseFilesTheDiskRefusedIsSetBack) {
+    const std::string id = submit();
+    run_with(R"(echo '{"error": {"kind": "storage", "detail": "No space left on device", "full": true}}'; exit 3)");
+    EXPECT_EQ(status(id), Status::queued);
+    EXPECT_EQ(m_store.find(id)->stage, "waits: No space left on device");
+    EXPECT_NE(m_store.lack_of_room(), "");
+    EXPECT_FALSE(m_store.lease("worker"));
+    m_now_ms += 2'000;
+    run_with(R"(echo '{"error": {"kind": "storage", "detail": "Input/output error"}}'; exit 3)");
+    EXPECT_EQ(status(id), Status::queued);
+    EXPECT_EQ(m_store.lack_of_room(), "");
+    m_now_ms += 3'000;
+    run_with(leave_report("p", sha256_hex("p")));
+    EXPECT_EQ(status(id), Status::done);
+}
+
+TEST_F(WorkerTest, AJobThatGetsNoScratchFolderIsSetBack) {
+    const std::string id = submit();
+    std::filesystem::create_directories(m_options.data);
+    m_folder.file("data/scratch", "a file where the folder should be");
+    EXPECT_TRUE(Worker(m_store, m_options, m_clock).run_next(m_stop));
+    EXPECT_EQ(status(id), Status::queued);
+    std::filesystem::remove(m_options.data / "scratch");
+    m_now_ms += 1'000;
+    run_with(leave_report("p", sha256_hex("p")));
+    EXPECT_EQ(status(id), Status::done);
+}
+
+TEST_F(WorkerTest, ASpecThatKillsInTheSameWayAgainIsNotTriedTwice) {
+    submit("deadly");
+    run_with("kill -SEGV $$");
+    run_with("kill -SEGV $$");
+    const std::string again = submit("deadly");
+    run_with("kill -SEGV $$");
+    EXPECT_EQ(status(again), Status::failed);
+}
+
+TEST_F(WorkerTest, AHangUpHarmsNoRenderer) {
+    const std::string id = submit();
+    run_with("kill -HUP $$; " + leave_report("p", sha256_hex("p")));
+    EXPECT_EQ(status(id), Status::done);
+}
+
 TEST_F(WorkerTest, ARendererThatSaysNothingFailsCleanly) {
     const std::string id = submit();
     run_with("exit 3");

@@ -1,0 +1,131 @@
+#include "server/archive/sqlite_open.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "server/jobs/store.h"
+
+namespace sheer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int busy_timeout_ms = 10'000;
+constexpr std::uintmax_t largest_checked_bytes = std::uintmax_t{16} << 20;
+constexpr std::size_t header_bytes = 100;
+
+fs::path database_in(const fs::path& folder) {
+    return folder / "archive.sqlite";
+}
+
+std::uintmax_t size_or_zero(const fs::path& file) {
+    std::error_code none;
+    const std::uintmax_t size = fs::file_size(file, none);
+    return none ? 0 : size;
+}
+
+bool holds_files(const fs::path& folder) {
+    std::error_code none;
+    return std::ranges::any_of(fs::recursive_directory_iterator(folder, none),
+                               [](const fs::directory_entry& entry) { return entry.is_regular_file(); });
+}
+
+std::uint32_t big_endian(const char* bytes, int count) {
+    std::uint32_t value = 0;
+    for (int i = 0; i < count; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+}
+
+/// How long the file must be by its own header (the SQLite file format, 1.3); 0 if it is none.
+std::uintmax_t size_by_header(const fs::path& file) {
+    std::array<char, header_bytes> header{};
+    std::ifstream(file, std::ios::binary).read(header.data(), header.size());
+    if (std::string_view(header.data(), 16) != std::string_view("SQLite format 3\0", 16)) return 0;
+    const std::uint32_t page_bytes = big_endian(&header[16], 2);
+    return std::uintmax_t{page_bytes == 1 ? 65536 : page_bytes} * big_endian(&header[28], 4);
+}
+
+/// What the files say before SQLite opens them: it takes an empty file for a new database, and finds out late that one
+/// is cut.
+void check_files(const fs::path& folder) {
+    const fs::path file = database_in(folder), log = file.string() + "-wal";
+    const std::uintmax_t size = size_or_zero(file), log_size = size_or_zero(log);
+    if (size == 0) {
+        const bool orphaned = log_size > 0 || holds_files(folder / "blobs") || holds_files(folder / "assets");
+        if (!orphaned) return;
+        throw StoreError(
+            fmt::format("{} is {}, but {} holds the files of an archive; put the database back, or choose "
+                        "another folder",
+                        file.string(), fs::exists(file) ? "empty" : "missing", folder.string()));
+    }
+    const std::uintmax_t wanted = size_by_header(file);
+    if (wanted == 0) throw StoreError(fmt::format("{} is not a SQLite database", file.string()));
+    // With a log that was not carried over yet, the file may be shorter than it will be.
+    if (size < wanted && log_size == 0)
+        throw StoreError(fmt::format("{} is cut: it has {} of {} bytes", file.string(), size, wanted));
+}
+
+/// A database is ours by its application id; ours of before there was one are known by their tables.
+void check_identity(SQLite::Database& database, const fs::path& folder) {
+    const std::int64_t id = database.execAndGet("PRAGMA application_id").getInt64();
+    if (id == archive_application_id) return;
+    const std::int64_t version = database.execAndGet("PRAGMA user_version").getInt64();
+    const int tables = database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt();
+    const int ours = database
+                         .execAndGet(
+                             "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('reports', "
+                             "'report_methods', 'report_tags', 'report_blobs', 'blobs', 'health')")
+                         .getInt();
+    if (id == 0 && version > 0 && ours == 6) return;
+    const fs::path file = database_in(folder);
+    if (id != 0 || version != 0 || tables != 0)
+        throw StoreError(fmt::format("{} is a database of another program", file.string()));
+    if (holds_files(folder / "blobs") || holds_files(folder / "assets"))
+        throw StoreError(
+            fmt::format("{} has no tables, but {} holds the files of an archive", file.string(), folder.string()));
+}
+
+}  // namespace
+
+SQLite::Database open_archive(const fs::path& folder) {
+    try {
+        fs::create_directories(folder);
+        check_files(folder);
+        SQLite::Database database(database_in(folder).string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                                  busy_timeout_ms);
+        check_identity(database, folder);
+        database.exec("PRAGMA journal_mode = WAL");
+        database.exec("PRAGMA synchronous = FULL");
+        database.exec("PRAGMA foreign_keys = ON");
+        // So that the log does not fill a small disk: 512 KiB.
+        database.exec("PRAGMA wal_autocheckpoint = 128");
+        database.exec("PRAGMA journal_size_limit = 524288");
+        return database;
+    } catch (const StoreError&) {
+        throw;
+    } catch (const SQLite::Exception& error) {
+        const std::string text = fmt::format("cannot open {}: {}", database_in(folder).string(), error.what());
+        if (error.getErrorCode() == SQLITE_FULL) throw StoreFull(text);
+        throw StoreError(text);
+    } catch (const std::exception& error) {
+        throw StoreError(fmt::format("cannot open the archive in {}: {}", folder.string(), error.what()));
+    }
+}
+
+void check_archive(SQLite::Database& database, const fs::path& folder) {
+    const fs::path file = database_in(folder);
+    if (size_or_zero(file) > largest_checked_bytes) return;
+    std::string found;
+    try {
+        found = database.execAndGet("PRAGMA quick_check(1)").getString();
+    } catch (const SQLite::Exception& error) {
+        found = error.what();
+    }
+    if (found != "ok") throw StoreError(fmt::format("{} is damaged: {}", file.string(), found));
+}
+
+}  // namespace sheer
