@@ -329,8 +329,6 @@ class SpecReader {
 
     void read_checks(Spec& spec) {
         json& checks = spec.normalised["checks"];
-        if (checks.empty()) return;
-        const std::vector<std::string> names = metric_names();
         for (std::size_t i = 0; i < checks.size(); ++i) {
             const std::string pointer = fmt::format("/checks/{}", i);
             json& check = checks[i];

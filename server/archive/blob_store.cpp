@@ -104,6 +104,16 @@ void make_folder(const fs::path& folder) {
     if (made && folder.has_parent_path()) sync_folder(folder.parent_path());
 }
 
+/// Makes a file beside `place`, whose folder a removal of its last file may take away at any time.
+int make_temporary(const fs::path& place, std::string& path) {
+    for (int tries = 0;; ++tries) {
+        make_folder(place.parent_path());
+        path = place.string() + temporary_suffix;
+        const int descriptor = mkostemp(path.data(), O_CLOEXEC);
+        if (descriptor >= 0 || errno != ENOENT || tries == 9) return descriptor;
+    }
+}
+
 bool is_whole(const fs::path& place, const std::string& sha256) {
     std::error_code none;
     if (!fs::is_regular_file(place, none)) return false;
@@ -131,9 +141,8 @@ bool BlobStore::put(const std::string& sha256, const std::string& bytes) {
     if (sha256_hex(bytes) != sha256) throw StoreError("the bytes of blob " + sha256 + " have another hash");
     const fs::path place = blob_path(m_folder, sha256);
     if (is_whole(place, sha256)) return false;
-    make_folder(place.parent_path());
-    std::string temporary_path = place.string() + temporary_suffix;
-    Descriptor file(mkostemp(temporary_path.data(), O_CLOEXEC), temporary_path);
+    std::string temporary_path;
+    Descriptor file(make_temporary(place, temporary_path), place);
     TemporaryFile temporary(temporary_path);
     file.write_all(bytes);
     file.sync();
@@ -166,13 +175,17 @@ std::optional<fs::path> BlobStore::find(const std::string& sha256) const {
 void BlobStore::remove(const std::string& sha256) {
     const fs::path path = blob_path(m_folder, sha256);
     if (unlink(path.c_str()) != 0 && errno != ENOENT) fail("cannot remove", path);
+    // A folder takes an inode; one that holds other files stays.
+    rmdir(path.parent_path().c_str());
 }
 
 void BlobStore::remove_leftovers(std::chrono::seconds age) {
     const auto oldest = fs::file_time_type::clock::now() - age;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(m_folder)) {
+    // A folder that is removed meanwhile ends it; the next start sees to the rest.
+    std::error_code gone;
+    for (fs::recursive_directory_iterator at(m_folder, gone), end; !gone && at != end; at.increment(gone)) {
+        const fs::directory_entry& entry = *at;
         if (entry.path().filename().string().find(temporary_mark) == std::string::npos) continue;
-        std::error_code gone;
         const fs::file_time_type written = entry.last_write_time(gone);
         if (!gone && written < oldest) fs::remove(entry.path(), gone);
     }

@@ -83,10 +83,13 @@ void SqliteStore::migrate(const fs::path& folder) {
 }
 
 void SqliteStore::checkpoint() {
+    // PASSIVE waits for nobody: readers of an older state leave a part of the log to the next time. TRUNCATE does, for
+    // the room that the log takes.
+    const char* const pragma =
+        m_room.lack().empty() ? "PRAGMA wal_checkpoint(PASSIVE)" : "PRAGMA wal_checkpoint(TRUNCATE)";
     try {
         m_checkpoint_due = !guarded(m_mutex, [&] {
-            // Waits for nobody: readers of an older state leave a part of the log to the next time.
-            SQLite::Statement carry(m_database, "PRAGMA wal_checkpoint(PASSIVE)");
+            SQLite::Statement carry(m_database, pragma);
             return carry.executeStep() && carry.getColumn(1).getInt() == carry.getColumn(2).getInt();
         });
     } catch (const StoreError& error) {
@@ -97,6 +100,7 @@ void SqliteStore::checkpoint() {
 }
 
 std::string SqliteStore::lack_of_room() {
+    if (!m_room.lack().empty()) checkpoint();
     m_room.restore_reserve();
     return guarded(m_mutex, [&] { return find_lack_of_room(); });
 }

@@ -139,8 +139,14 @@ class Subject {
     }
 
     std::string read_picture(const json& image) const {
-        if (!m_options.data.empty())
-            return read_text(blob_path(std::filesystem::path(m_options.data) / "blobs", image.at("sha256")));
+        if (!m_options.data.empty()) {
+            const BlobStore blobs(std::filesystem::path(m_options.data) / "blobs");
+            try {
+                return read_text(blobs.find_whole(image.at("sha256")));
+            } catch (const DamagedFile& damaged) {
+                throw UsageError(fmt::format("a picture of the report is damaged: {}", damaged.what()));
+            }
+        }
         return read_text(file().parent_path() / image.at("url").get<std::string>());
     }
 

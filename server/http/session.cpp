@@ -74,24 +74,6 @@ std::optional<Response> problem_of(beast::error_code error) {
     return std::nullopt;
 }
 
-/// The count of an answer that lasts, if it may.
-class Lasting {
-  public:
-    Lasting(LastingAnswers& answers, const std::string& client)
-        : m_answers(answers), m_client(client), m_granted(answers.begin(client)) {}
-    Lasting(const Lasting&) = delete;
-    Lasting& operator=(const Lasting&) = delete;
-    ~Lasting() {
-        if (m_granted) m_answers.end(m_client);
-    }
-    bool is_granted() const { return m_granted; }
-
-  private:
-    LastingAnswers& m_answers;
-    std::string m_client;
-    bool m_granted;
-};
-
 class TcpSession : public Session {
   public:
     TcpSession(tcp::socket socket, Seat seat, SessionContext& context)
@@ -182,10 +164,11 @@ class TcpSession : public Session {
     asio::awaitable<bool> wait_for_request() {
         if (m_buffer.size() > 0) co_return true;
         m_idle = true;
-        m_dispensable_from = std::max(SteadyClock::now(), m_begun + newcomer_time);
+        m_dispensable_from = SteadyClock::now() + (m_has_asked ? Milliseconds(0) : newcomer_time);
         m_stream.expires_after(at_most(m_limits.idle_timeout));
         auto [error, count] = co_await m_stream.async_read_some(m_buffer.prepare(m_limits.header_bytes), token);
         m_idle = false;
+        m_has_asked = true;
         m_buffer.commit(count);
         co_return !error;
     }
@@ -389,28 +372,13 @@ class TcpSession : public Session {
     beast::flat_buffer m_buffer;
     unsigned m_version = 11;
     bool m_idle = false;
+    bool m_has_asked = false;  ///< whether a first request began to arrive
     bool m_head = false;
     bool m_close = false;
     bool m_read_ahead = false;  ///< whether the next request is there already
 };
 
 }  // namespace
-
-LastingAnswers::LastingAnswers(const Limits& limits)
-    : m_max(std::max(1, limits.max_connections * 3 / 4)), m_max_per_client(limits.max_streams_per_client) {}
-
-bool LastingAnswers::begin(const std::string& client) {
-    const auto known = m_by_client.find(client);
-    if (m_count >= m_max || (known != m_by_client.end() && known->second >= m_max_per_client)) return false;
-    ++m_count;
-    ++m_by_client[client];
-    return true;
-}
-
-void LastingAnswers::end(const std::string& client) {
-    --m_count;
-    if (--m_by_client[client] == 0) m_by_client.erase(client);
-}
 
 std::shared_ptr<Session> make_session(tcp::socket socket, Seat seat, SessionContext& context) {
     return std::make_shared<TcpSession>(std::move(socket), seat, context);

@@ -3,13 +3,12 @@
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
-#include <string>
 
 #include "server/http/changes.h"
+#include "server/http/lasting.h"
 #include "server/http/limits.h"
 #include "server/http/message.h"
 #include "server/http/server.h"
@@ -17,21 +16,6 @@
 namespace sheer::http {
 
 class Session;
-
-/// Counts the answers that last: streams of events, and requests that wait for a report. Each holds a connection for as
-/// long as its client likes, so one client gets some only, and all together leave connections for others.
-class LastingAnswers {
-  public:
-    explicit LastingAnswers(const Limits& limits);
-    /// Whether one more may begin for this client; `end` must follow if so.
-    bool begin(const std::string& client);
-    void end(const std::string& client);
-
-  private:
-    int m_max, m_max_per_client;
-    int m_count = 0;
-    std::map<std::string, int> m_by_client;
-};
 
 /// What the connections of a server share. Used on the io_context's thread only.
 struct SessionContext {

@@ -53,6 +53,10 @@ TEST_F(BlobStoreTest, KeepsBytesUnderTheirHash) {
     m_blobs.remove(m_abc);
     m_blobs.remove(m_abc);
     EXPECT_FALSE(m_blobs.find(m_abc));
+    // Nothing is left that takes an inode, and it can come back.
+    EXPECT_TRUE(fs::is_empty(m_folder.path() / "blobs"));
+    m_blobs.put(m_abc, "abc");
+    EXPECT_TRUE(m_blobs.find(m_abc));
 }
 
 TEST_F(BlobStoreTest, RefusesBytesOfAnotherHash) {
