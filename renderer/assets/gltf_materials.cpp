@@ -3,99 +3,134 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "renderer/assets/picture_file.h"
+#include <cmath>
 
 namespace sheer {
 
 namespace {
 
-constexpr int max_side_px = 2048;
-constexpr std::size_t max_texels = std::size_t{16} << 20, max_pictures = 1024;
+/// So much light is white whatever is drawn over it.
+constexpr double max_emitted = 1e6;
 
-Material::Alpha alpha_mode(const std::string& name, const std::string& what) {
-    if (name.empty() || name == "OPAQUE") return Material::Alpha::opaque;
+Material::Alpha alpha_mode(const GltfObject& material) {
+    const std::string name = material.text("alphaMode", "OPAQUE");
+    if (name == "OPAQUE") return Material::Alpha::opaque;
     if (name == "MASK") return Material::Alpha::mask;
     if (name == "BLEND") return Material::Alpha::blend;
-    throw AssetError(fmt::format("{}: alphaMode must be OPAQUE, MASK or BLEND, not \"{:.40}\"", what, name));
+    material.fail(fmt::format("alphaMode must be OPAQUE, MASK or BLEND, not \"{:.40}\"", name));
 }
 
-/// The least power of two from `size` up, at most max_side_px.
-int power_of_two(int size) {
-    int power = 1;
-    while (power < size && power < max_side_px) power *= 2;
-    return power;
+/// Khronos, KHR_texture_transform: translation * rotation * scale, where a turn is counter-clockwise as v points down.
+GltfUv uv_of(const GltfObject& info) {
+    GltfUv uv{info.whole_number("texCoord").value_or(0)};
+    const auto transform = info.extension("KHR_texture_transform");
+    if (!transform) return uv;
+    uv.set = transform->whole_number("texCoord").value_or(uv.set);
+    const std::vector<double> offset = transform->numbers("offset", 2), scale = transform->numbers("scale", 2);
+    const double turn = transform->number("rotation", 0), c = std::cos(turn), s = std::sin(turn);
+    const glm::dvec2 by = scale.empty() ? glm::dvec2(1) : glm::dvec2(scale[0], scale[1]);
+    uv.transform[0] = glm::dvec2(c, -s) * by.x;
+    uv.transform[1] = glm::dvec2(s, c) * by.y;
+    if (!offset.empty()) uv.transform[2] = {offset[0], offset[1]};
+    return uv;
+}
+
+/// Colour and alpha, the colour encoded.
+glm::vec4 color_of(const GltfObject& from, const char* name) {
+    const std::vector<double> factor = from.numbers(name, 4);
+    if (factor.empty()) return glm::vec4(1);
+    return {srgb_encode(factor[0]), srgb_encode(factor[1]), srgb_encode(factor[2]),
+            static_cast<float>(std::clamp(factor[3], 0.0, 1.0))};
 }
 
 }  // namespace
 
-std::uint32_t GltfMaterials::use(int index, const std::string& what) {
+std::uint32_t GltfMaterials::use(std::optional<std::uint64_t> index, const std::string& what) {
     const auto [known, added] = m_numbers.try_emplace(index, static_cast<std::uint32_t>(m_materials.size()));
     if (!added) return known->second;
     Material material;
-    int uv_set = 0;
-    if (index != -1) {
-        if (index < 0 || static_cast<std::size_t>(index) >= m_gltf.materials.size())
-            throw AssetError(fmt::format("{}: there is no material {}", what, index));
-        material = read(m_gltf.materials[static_cast<std::size_t>(index)], fmt::format("material {}", index), uv_set);
+    GltfUv base_uv, emission_uv;
+    if (index) {
+        const GltfObject from = m_file.item(gltf_lists::materials, *index, what);
+        material.alpha = alpha_mode(from);
+        material.cutoff =
+            static_cast<float>(std::clamp(from.number("alphaCutoff", 0.5), 0.0, 2.0));  // over 1 hides all
+        material.double_sided = from.flag("doubleSided");
+        material.unlit = from.extension("KHR_materials_unlit").has_value();
+        read_transmission(from, material);
+        read_base(from, material, base_uv);
+        if (!material.unlit) read_emission(from, material, emission_uv);
+        note_unread(from);
     }
     m_materials.push_back(material);
-    m_uv_sets.push_back(uv_set);
+    m_base_uvs.push_back(base_uv);
+    m_emission_uvs.push_back(emission_uv);
     return known->second;
 }
 
-Material GltfMaterials::read(const tinygltf::Material& from, const std::string& what, int& uv_set) {
-    Material material;
-    material.alpha = alpha_mode(from.alphaMode, what);
-    material.cutoff = static_cast<float>(std::clamp(from.alphaCutoff, 0.0, 2.0));  // over 1 hides all
-    const tinygltf::PbrMetallicRoughness& base = from.pbrMetallicRoughness;
-    for (int channel = 0; channel < 3; ++channel)
-        material.base_color[channel] = srgb_encode(base.baseColorFactor.at(static_cast<std::size_t>(channel)));
-    material.base_color.a = static_cast<float>(std::clamp(base.baseColorFactor.at(3), 0.0, 1.0));
-    if (base.baseColorTexture.index != -1) material.picture = use_picture(base.baseColorTexture.index, what);
-    uv_set = base.baseColorTexture.texCoord;
-    material.unlit = from.extensions.contains("KHR_materials_unlit");
-    return material;
+void GltfMaterials::read_base(const GltfObject& from, Material& material, GltfUv& uv) {
+    const auto glossy = from.extension("KHR_materials_pbrSpecularGlossiness");
+    const auto base = glossy ? glossy : from.object("pbrMetallicRoughness");
+    if (!base) return;
+    // What glass lets through has been taken off the alpha of a surface that is opaque otherwise.
+    const glm::vec4 color = color_of(*base, glossy ? "diffuseFactor" : "baseColorFactor");
+    const bool alpha_counts = alpha_mode(from) != Material::Alpha::opaque;
+    material.base_color = {glm::vec3(color), material.base_color.a * (alpha_counts ? color.a : 1)};
+    const auto texture = base->object(glossy ? "diffuseTexture" : "baseColorTexture");
+    if (!texture) return;
+    material.base = m_pictures.use(*texture, alpha_counts ? GltfPictures::Alpha::kept : GltfPictures::Alpha::ignored);
+    uv = uv_of(*texture);
 }
 
-int GltfMaterials::use_picture(int texture, const std::string& what) {
-    if (texture < 0 || static_cast<std::size_t>(texture) >= m_gltf.textures.size())
-        throw AssetError(fmt::format("{}: there is no texture {}", what, texture));
-    const int image = m_gltf.textures[static_cast<std::size_t>(texture)].source;
-    if (image < 0 || static_cast<std::size_t>(image) >= m_gltf.images.size())
-        throw AssetError(fmt::format("texture {}: there is no image {}", texture, image));
-    const auto known = std::ranges::find(m_images, image);
-    const auto number = static_cast<int>(known - m_images.begin());
-    if (known == m_images.end()) m_images.push_back(image);
-    if (m_images.size() > max_pictures)
-        throw AssetError(fmt::format("the model has more than {} pictures", max_pictures));
-    return number;
+void GltfMaterials::read_emission(const GltfObject& from, Material& material, GltfUv& uv) {
+    const std::vector<double> factor = from.numbers("emissiveFactor", 3);
+    const auto strength = from.extension("KHR_materials_emissive_strength");
+    const double times = strength ? strength->number("emissiveStrength", 1) : 1;
+    if (!(times >= 0)) strength->fail("emissiveStrength must be at least 0");
+    for (int channel = 0; channel < 3 && !factor.empty(); ++channel)
+        material.emitted[channel] =
+            static_cast<float>(std::clamp(factor[static_cast<std::size_t>(channel)] * times, 0.0, max_emitted));
+    const auto texture = from.object("emissiveTexture");
+    if (!texture || material.emitted == glm::vec3(0)) return;
+    material.emission = m_pictures.use(*texture, GltfPictures::Alpha::ignored);
+    uv = uv_of(*texture);
 }
 
-std::vector<Picture> GltfMaterials::read_pictures() const {
-    std::vector<std::string> encoded;
-    int width_px = 1, height_px = 1;
-    for (const int image : m_images) {
-        try {
-            encoded.push_back(read_gltf_picture(m_gltf, m_gltf.images[static_cast<std::size_t>(image)], m_others));
-            const PictureHeader header = read_picture_header(encoded.back());
-            width_px = std::max(width_px, power_of_two(header.width_px));
-            height_px = std::max(height_px, power_of_two(header.height_px));
-        } catch (const AssetError& error) {
-            throw AssetError(fmt::format("image {}: {}", image, error.what()));
-        }
-    }
-    while (static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * encoded.size() > max_texels)
-        (width_px > height_px ? width_px : height_px) /= 2;
-    std::vector<Picture> pictures;
-    for (std::size_t i = 0; i < encoded.size(); ++i) {
-        try {
-            pictures.push_back(read_picture(encoded[i], width_px, height_px));
-        } catch (const AssetError& error) {
-            throw AssetError(fmt::format("image {}: {}", m_images[i], error.what()));
-        }
-    }
-    return pictures;
+void GltfMaterials::read_transmission(const GltfObject& from, Material& material) {
+    const auto transmission = from.extension("KHR_materials_transmission");
+    const double factor = transmission ? std::clamp(transmission->number("transmissionFactor", 0), 0.0, 1.0) : 0;
+    if (factor == 0) return;
+    m_file.note(
+        "transmission-blended",
+        fmt::format("KHR_materials_transmission is drawn as BLEND with alpha times {:g}; its tint, refraction{} "
+                    "are left out.",
+                    1 - factor, transmission->has("transmissionTexture") ? ", blur and texture" : " and blur"),
+        from.where());
+    if (material.alpha == Material::Alpha::mask)
+        m_file.note("mask-blended", "The mask's cutoff is left out, as the surface lets light through.", from.where());
+    material.alpha = Material::Alpha::blend;
+    material.base_color.a = static_cast<float>(1 - factor);
+}
+
+/// One note for all materials: nearly every file has such textures.
+void GltfMaterials::note_unread(const GltfObject& from) {
+    if (m_unread_noted) return;
+    const auto metallic = from.object("pbrMetallicRoughness");
+    std::string names;
+    const auto add = [&](bool there, const char* name) {
+        names += there ? (names.empty() ? "" : ", ") + std::string(name) : "";
+    };
+    add(from.has("normalTexture"), "normalTexture");
+    add(from.has("occlusionTexture"), "occlusionTexture");
+    add(metallic && metallic->has("metallicRoughnessTexture"), "metallicRoughnessTexture");
+    if (names.empty()) return;
+    m_unread_noted = true;
+    m_file.note(
+        "material-textures-ignored",
+        fmt::format("Textures of bumps, shade and gloss ({} here) are not read: a surface has the colours of its "
+                    "base and what it emits.",
+                    names),
+        from.where());
 }
 
 }  // namespace sheer

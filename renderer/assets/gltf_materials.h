@@ -1,42 +1,50 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/assets/gltf_file.h"
+#include "renderer/assets/gltf_pictures.h"
 #include "renderer/scene/model.h"
 
 namespace sheer {
 
-/// The materials of a glTF file that are in use, numbered as they are first met, and the pictures of their base
-/// colours.
+/// Where the texture coordinates of a picture come from: an attribute, moved, turned and scaled
+/// (KHR_texture_transform).
+struct GltfUv {
+    std::uint64_t set = 0;  ///< of TEXCOORD_<set>
+    glm::dmat3x2 transform{1, 0, 0, 1, 0, 0};
+
+    glm::dvec2 operator()(const glm::dvec2& at) const { return transform * glm::dvec3(at, 1); }
+};
+
+/// The materials of a glTF file that are in use, numbered as they are first met. Throws AssetError.
 class GltfMaterials {
   public:
-    /// `gltf` is what read_gltf_file gave; both outlive it.
-    GltfMaterials(const tinygltf::Model& gltf, const OtherFiles& others) : m_gltf(gltf), m_others(others) {}
+    /// The file and the pictures outlive it.
+    GltfMaterials(GltfFile& file, GltfPictures& pictures) : m_file(file), m_pictures(pictures) {}
 
-    /// The number here of the file's material `index`; -1 is glTF's default material. `what` names who uses it.
-    /// Throws AssetError.
-    std::uint32_t use(int index, const std::string& what);
+    /// The number here of the file's material; nothing is glTF's default material. `what` names who uses it.
+    std::uint32_t use(std::optional<std::uint64_t> index, const std::string& what);
 
     const std::vector<Material>& materials() const { return m_materials; }
-    /// Number of the texture coordinates that the picture of a material goes by.
-    int uv_set(std::uint32_t material) const { return m_uv_sets[material]; }
-
-    /// Decodes the pictures of the materials in use, scaled to one size. Throws AssetError.
-    std::vector<Picture> read_pictures() const;
+    const GltfUv& base_uv(std::uint32_t material) const { return m_base_uvs[material]; }
+    const GltfUv& emission_uv(std::uint32_t material) const { return m_emission_uvs[material]; }
 
   private:
-    Material read(const tinygltf::Material& material, const std::string& what, int& uv_set);
-    int use_picture(int texture, const std::string& what);
+    void read_base(const GltfObject& from, Material& material, GltfUv& uv);
+    void read_emission(const GltfObject& from, Material& material, GltfUv& uv);
+    void read_transmission(const GltfObject& from, Material& material);
+    void note_unread(const GltfObject& from);
 
-    const tinygltf::Model& m_gltf;
-    const OtherFiles& m_others;
-    std::map<int, std::uint32_t> m_numbers;  ///< by the index in the file
+    GltfFile& m_file;
+    GltfPictures& m_pictures;
+    std::map<std::optional<std::uint64_t>, std::uint32_t> m_numbers;  ///< by the index in the file
     std::vector<Material> m_materials;
-    std::vector<int> m_uv_sets;  ///< of the materials
-    std::vector<int> m_images;   ///< of the pictures, in the file
+    std::vector<GltfUv> m_base_uvs, m_emission_uvs;  ///< of the materials
+    bool m_unread_noted = false;
 };
 
 }  // namespace sheer

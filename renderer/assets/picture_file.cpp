@@ -22,6 +22,7 @@ constexpr float max_half = 65504;
 
 const char* reader_name(PictureFormat format) {
     if (format == PictureFormat::png) return "png";
+    if (format == PictureFormat::webp) return "webp";
     return format == PictureFormat::jpeg ? "jpeg" : "openexr";
 }
 

@@ -21,7 +21,8 @@ struct Signature {
 };
 constexpr Signature picture_signatures[] = {{"\x89PNG\r\n\x1a\n"sv, read_png_header},
                                             {"\xff\xd8\xff"sv, read_jpeg_header},
-                                            {"\x76\x2f\x31\x01"sv, read_exr_header}};
+                                            {"\x76\x2f\x31\x01"sv, read_exr_header},
+                                            {"RIFF"sv, read_webp_header}};
 
 /// Numbers of a TIFF file, in the order of bytes that it says. Zeros beyond its end.
 class TiffNumbers {
@@ -45,6 +46,7 @@ class TiffNumbers {
 
 const char* name_of(PictureFormat format) {
     if (format == PictureFormat::png) return "PNG";
+    if (format == PictureFormat::webp) return "WebP";
     return format == PictureFormat::jpeg ? "JPEG" : "OpenEXR file";
 }
 
@@ -95,7 +97,7 @@ void note_trailing_bytes(PictureHeader& header, std::size_t count) {
 PictureHeader read_picture_header(std::string_view bytes) {
     for (const Signature& signature : picture_signatures)
         if (bytes.starts_with(signature.bytes)) return signature.read(bytes);
-    throw AssetError("the file is no PNG, JPEG or OpenEXR picture: its first bytes are those of none of them");
+    throw AssetError("the file is no PNG, JPEG, OpenEXR or WebP picture: its first bytes are those of none of them");
 }
 
 }  // namespace sheer

@@ -7,9 +7,9 @@
 
 namespace sheer {
 
-enum class PictureFormat { png, jpeg, exr };
+enum class PictureFormat { png, jpeg, exr, webp };
 
-/// "PNG", "JPEG" or "OpenEXR file".
+/// "PNG", "JPEG", "OpenEXR file" or "WebP".
 const char* name_of(PictureFormat format);
 
 /// What a picture file says of itself before anything is decoded.
@@ -30,7 +30,8 @@ inline bool is_transposed(const PictureHeader& header) {
 
 /// Reads all of the file but its pixels by ourselves, since decoders believe what a header says and take the memory or
 /// the time for it, and since they fill up what is missing. Sources: PNG (ISO 15948, clauses 5, 10 and 11), JPEG
-/// (ITU-T T.81, annexes B and G), EXIF 2.3 (4.6.4), "OpenEXR File Layout".
+/// (ITU-T T.81, annexes B and G), EXIF 2.3 (4.6.4), "OpenEXR File Layout", WebP
+/// (RFC 9649).
 ///
 /// Throws AssetError for another format, a side that is 0 or over the limit, and a file that is cut off. For a PNG with
 /// a chunk whose checksum is wrong, or whose image data is damaged or too short. For a JPEG that is neither grey nor

@@ -10,6 +10,7 @@ namespace sheer {
 PictureHeader read_png_header(std::string_view bytes);
 PictureHeader read_jpeg_header(std::string_view bytes);
 PictureHeader read_exr_header(std::string_view bytes);
+PictureHeader read_webp_header(std::string_view bytes);
 
 /// Throws AssetError for sides that are 0 or over the limit.
 void check_picture_size(PictureFormat format, std::int64_t width_px, std::int64_t height_px);

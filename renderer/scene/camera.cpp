@@ -4,16 +4,21 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 
 namespace sheer {
 
 namespace {
 
+using glm::dvec3;
+
 constexpr double default_fov_y_deg = 40;
-constexpr double farthest = 1000;
+constexpr double any = std::numeric_limits<double>::infinity();
+/// Of the near plane's distance to the far one's. The depth buffer holds 32-bit floats.
+constexpr double least_ratio = 1e-6;
 constexpr double least_sine = 1e-6;  // of the angle between `up` and the line of sight
 
-glm::dvec3 vector_of(const nlohmann::json& numbers) {
+dvec3 vector_of(const nlohmann::json& numbers) {
     const auto values = numbers.get<std::array<double, 3>>();
     return {values[0], values[1], values[2]};
 }
@@ -22,27 +27,110 @@ double half_height(double fov_y_deg) {
     return std::tan(glm::radians(fov_y_deg) / 2);
 }
 
-}  // namespace
-
-glm::dmat4 Camera::view() const {
-    return glm::lookAtRH(eye, target, up);
+/// Of length 1, however long or short the vector is; 0 for one that is 0.
+dvec3 direction_of(const dvec3& vector) {
+    const double longest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
+    return longest > 0 ? glm::normalize(vector / longest) : dvec3(0);
 }
 
-glm::dmat4 Camera::projection(const Sphere& bounds, double aspect) const {
-    const double distance = glm::length(bounds.centre - eye);
-    const double far_plane = distance + bounds.radius;
-    const double near_plane = std::max(distance - bounds.radius, far_plane / 1000);
-    return glm::perspectiveRH_ZO(glm::radians(fov_y_deg), aspect, near_plane, far_plane);
+/// From `from` to `to`, also where their difference is no double.
+dvec3 direction_between(const dvec3& from, const dvec3& to) {
+    return direction_of(to / 2.0 - from / 2.0);
+}
+
+/// The view from the eye: points within it are dot(side, point) <= 0 for all four.
+std::array<dvec3, 4> sides_of_view(double fov_y_deg, double aspect) {
+    const double height = half_height(fov_y_deg), width = height * aspect;
+    return {dvec3(1, 0, width), {-1, 0, width}, {0, 1, height}, {0, -1, height}};
+}
+
+/// What of the polygon lies on the inner side. (Sutherland and Hodgman 1974.)
+void cut_polygon(std::vector<dvec3>& polygon, const dvec3& side) {
+    std::vector<dvec3> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double at_a = glm::dot(side, a), at_b = glm::dot(side, b);
+        if (at_a <= 0) kept.push_back(a);
+        if ((at_a <= 0) != (at_b <= 0)) kept.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+    }
+    polygon = std::move(kept);
+}
+
+/// How far ahead of the eye what lies in the view begins and ends.
+class ViewDepths {
+  public:
+    ViewDepths(double fov_y_deg, double aspect) : m_sides(sides_of_view(fov_y_deg, aspect)) {}
+
+    void add(const std::array<dvec3, 3>& corners) {
+        std::size_t within = 0;
+        for (const dvec3& side : m_sides) {
+            const auto outside =
+                std::ranges::count_if(corners, [&](const dvec3& at) { return glm::dot(side, at) > 0; });
+            if (outside == 3) return;
+            within += outside == 0;
+        }
+        std::vector<dvec3> polygon(corners.begin(), corners.end());
+        for (const dvec3& side : m_sides)
+            if (within < m_sides.size()) cut_polygon(polygon, side);
+        for (const dvec3& at : polygon) {
+            m_nearest = std::min(m_nearest, -at.z);
+            m_farthest = std::max(m_farthest, -at.z);
+        }
+    }
+
+    Planes planes() const {
+        constexpr double slack = 1e-4;
+        if (!(m_farthest > 0) || !std::isfinite(m_farthest)) return {};
+        const double far = m_farthest * (1 + slack);
+        return {std::max(m_nearest * (1 - slack), far * least_ratio), far};
+    }
+
+  private:
+    std::array<dvec3, 4> m_sides;
+    double m_nearest = any, m_farthest = 0;
+};
+
+/// Clip coordinates may all be multiplied by the same number: here by a power of two, so that floats hold them however
+/// large or small the scene is.
+glm::mat4 to_float(const glm::dmat4& clip, double far) {
+    const int exponent = std::abs(std::ilogb(far)) > 20 ? std::ilogb(far) : 0;
+    glm::mat4 matrix;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            matrix[column][row] = static_cast<float>(std::clamp(std::ldexp(clip[column][row], -exponent), -1e30, 1e30));
+    return matrix;
+}
+
+void finish(Geometry& geometry, const Camera& camera, const glm::dmat4& view, double aspect) {
+    const Planes planes = planes_of_view(geometry, view, camera.fov_y_deg, aspect);
+    geometry.view_projection = to_float(camera.projection(planes, aspect) * view, planes.far);
+    geometry.camera = camera_json(camera);
+    set_depths(geometry, view);
+}
+
+}  // namespace
+
+glm::dmat4 Camera::view(const dvec3& origin) const {
+    const dvec3 ahead = direction_between(eye, target), right = glm::normalize(glm::cross(ahead, direction_of(up))),
+                above = glm::cross(right, ahead), from = eye - origin;
+    glm::dmat4 view(1);
+    for (int axis = 0; axis < 3; ++axis) view[axis] = glm::dvec4(right[axis], above[axis], -ahead[axis], 0);
+    view[3] = glm::dvec4(-glm::dot(right, from), -glm::dot(above, from), glm::dot(ahead, from), 1);
+    return view;
+}
+
+glm::dmat4 Camera::projection(const Planes& planes, double aspect) const {
+    return glm::perspectiveRH_ZO(glm::radians(fov_y_deg), aspect, planes.near, planes.far);
 }
 
 Param camera_parameter() {
-    Param camera = Param::object(
-        "camera", "where the scene is looked at from; without one all of it is in the picture",
-        {Param::numbers("eye", "where the camera is: x, y, z with y up", "", {4, 3, 6}, -farthest, farthest),
-         Param::numbers("target", "what is in the middle of the picture", "", {0, 1.5, 0}, -farthest, farthest),
-         Param::numbers("up", "what points up in the picture", "", {0, 1, 0}, -farthest, farthest),
-         Param::number("fov_y_deg", "angle between the top and the bottom of the picture", "deg", default_fov_y_deg, 1,
-                       170)});
+    Param camera =
+        Param::object("camera", "where the scene is looked at from; without one all of it is in the picture",
+                      {Param::numbers("eye", "where the camera is: x, y, z with y up", "", {4, 3, 6}, -any, any),
+                       Param::numbers("target", "what is in the middle of the picture", "", {0, 1.5, 0}, -any, any),
+                       Param::numbers("up", "what points up in the picture", "", {0, 1, 0}, -any, any),
+                       Param::number("fov_y_deg", "angle between the top and the bottom of the picture", "deg",
+                                     default_fov_y_deg, 1, 170)});
     camera.optional = true;
     return camera;
 }
@@ -53,18 +141,18 @@ void check_camera(const nlohmann::json& scene, const std::string& pointer, std::
     const bool wrong =
         std::ranges::any_of(errors, [&](const FieldError& error) { return error.pointer.starts_with(own); });
     if (camera.is_null() || wrong) return;
-    const glm::dvec3 sight = vector_of(camera.at("target")) - vector_of(camera.at("eye")),
-                     up = vector_of(camera.at("up"));
-    if (glm::length(sight) < least_sine) {
+    const dvec3 eye = vector_of(camera.at("eye")), target = vector_of(camera.at("target")),
+                up = direction_of(vector_of(camera.at("up"))), sight = direction_between(eye, target);
+    if (sight == dvec3(0)) {
         errors.push_back({own + "/target", "must differ from eye"});
-    } else if (glm::length(up) < least_sine) {
+    } else if (up == dvec3(0)) {
         errors.push_back({own + "/up", "must have a length"});
-    } else if (glm::length(glm::cross(glm::normalize(sight), glm::normalize(up))) < least_sine) {
+    } else if (glm::length(glm::cross(sight, up)) < least_sine) {
         errors.push_back({own + "/up", "must not be parallel to the line from eye to target"});
     }
 }
 
-Camera read_camera(const nlohmann::json& camera, const Sphere& bounds, const glm::dvec3& direction, double aspect) {
+Camera read_camera(const nlohmann::json& camera, const Sphere& bounds, const dvec3& direction, double aspect) {
     if (!camera.is_null())
         return {vector_of(camera.at("eye")), vector_of(camera.at("target")), vector_of(camera.at("up")),
                 camera.at("fov_y_deg").get<double>()};
@@ -78,7 +166,7 @@ Camera read_camera(const nlohmann::json& camera, const Sphere& bounds, const glm
 }
 
 nlohmann::json camera_json(const Camera& camera) {
-    const auto numbers = [](const glm::dvec3& vector) { return nlohmann::json{vector.x, vector.y, vector.z}; };
+    const auto numbers = [](const dvec3& vector) { return nlohmann::json{vector.x, vector.y, vector.z}; };
     return {{"eye", numbers(camera.eye)},
             {"target", numbers(camera.target)},
             {"up", numbers(camera.up)},
@@ -87,14 +175,14 @@ nlohmann::json camera_json(const Camera& camera) {
 
 Sphere bounding_sphere(const std::vector<Vertex>& vertices) {
     if (vertices.empty()) return {};
-    glm::dvec3 low(vertices.front().position), high = low;
+    dvec3 low(vertices.front().position), high = low;
     for (const Vertex& vertex : vertices) {
-        low = glm::min(low, glm::dvec3(vertex.position));
-        high = glm::max(high, glm::dvec3(vertex.position));
+        low = glm::min(low, dvec3(vertex.position));
+        high = glm::max(high, dvec3(vertex.position));
     }
     Sphere sphere{(low + high) / 2.0, 0};
     for (const Vertex& vertex : vertices)
-        sphere.radius = std::max(sphere.radius, glm::length(glm::dvec3(vertex.position) - sphere.centre));
+        sphere.radius = std::max(sphere.radius, glm::length(dvec3(vertex.position) - sphere.centre));
     return sphere;
 }
 
@@ -108,11 +196,21 @@ void set_depths(Geometry& geometry, const glm::dmat4& view) {
         geometry.primitives[i].depth = static_cast<float>(sums[i] / counts[i]);
 }
 
-void look_through(Geometry& geometry, const Camera& camera, const Sphere& bounds, double aspect) {
-    const glm::dmat4 view = camera.view();
-    geometry.view_projection = glm::mat4(camera.projection(bounds, aspect) * view);
-    geometry.camera = camera_json(camera);
-    set_depths(geometry, view);
+Planes planes_of_view(const Geometry& geometry, const glm::dmat4& view, double fov_y_deg, double aspect) {
+    ViewDepths depths(fov_y_deg, aspect);
+    const auto seen = [&](std::size_t i) {
+        return dvec3(view * glm::dvec4(geometry.vertices[geometry.indices[i]].position, 1));
+    };
+    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) depths.add({seen(i), seen(i + 1), seen(i + 2)});
+    return depths.planes();
+}
+
+void look_through(Geometry& geometry, const Camera& camera, double aspect, const dvec3& origin) {
+    finish(geometry, camera, camera.view(origin), aspect);
+}
+
+void look_from_camera_space(Geometry& geometry, const Camera& camera, double aspect) {
+    finish(geometry, camera, glm::dmat4(1), aspect);
 }
 
 }  // namespace sheer

@@ -13,16 +13,20 @@ struct Sphere {
     double radius = 1;
 };
 
+/// How far ahead of the eye the planes lie that cut the picture off.
+struct Planes {
+    double near = 1, far = 2;
+};
+
 /// Where a 3D scene is looked at from, in the scene's right-handed space: y up, lengths without a unit.
 struct Camera {
     glm::dvec3 eye, target, up;
     double fov_y_deg;  ///< the whole angle between the top and the bottom of the picture
 
-    /// Scene to camera space: x right, y up, -z ahead.
-    glm::dmat4 view() const;
-    /// Camera to clip space with depth 0 (near) to 1, y up. `aspect` is width over height. The planes hug `bounds`;
-    /// from within them the near plane stays ahead of the eye by a thousandth of the far one's distance.
-    glm::dmat4 projection(const Sphere& bounds, double aspect) const;
+    /// Scene to camera space: x right, y up, -z ahead. `origin` is where the scene's coordinates begin.
+    glm::dmat4 view(const glm::dvec3& origin = glm::dvec3(0)) const;
+    /// Camera to clip space with depth 0 (near) to 1, y up. `aspect` is width over height.
+    glm::dmat4 projection(const Planes& planes, double aspect) const;
 };
 
 /// The camera of the spec, an optional object: absent or null frames the scene.
@@ -45,7 +49,15 @@ Sphere bounding_sphere(const std::vector<Vertex>& vertices);
 /// Sets each primitive's depth to that of its middle (the mean of its vertices) ahead of the eye.
 void set_depths(Geometry& geometry, const glm::dmat4& view);
 
-/// Sets `view_projection`, `camera` and the depths.
-void look_through(Geometry& geometry, const Camera& camera, const Sphere& bounds, double aspect);
+/// Planes that hug the parts of the triangles that lie in the view, whatever lies elsewhere. Where something comes
+/// closer to the eye than a millionth of the distance of the farthest, the near plane stays there.
+Planes planes_of_view(const Geometry& geometry, const glm::dmat4& view, double fov_y_deg, double aspect);
+
+/// Sets `view_projection`, `camera` and the depths. `origin` is where the geometry's coordinates begin, in the camera's
+/// space.
+void look_through(Geometry& geometry, const Camera& camera, double aspect, const glm::dvec3& origin = glm::dvec3(0));
+
+/// The same for geometry that lies in camera space already.
+void look_from_camera_space(Geometry& geometry, const Camera& camera, double aspect);
 
 }  // namespace sheer

@@ -7,30 +7,54 @@
 
 namespace sheer {
 
-/// How a surface of a model is drawn. All colours are display values, as in pictures: what a file gives in linear light
-/// has been encoded (srgb_encode) by its reader.
+/// How a surface reads a picture (glTF 2.0, section 3.8.4). What a file leaves open is repeated and filtered
+/// trilinearly.
+struct PictureUse {
+    enum class Wrap { repeat, clamp, mirror };
+    enum class Mipmaps { none, nearest, linear };
+
+    int picture = -1;  ///< index into Model::pictures; -1 for none
+    Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+    bool nearest_when_magnified = false, nearest_when_minified = false;
+    Mipmaps mipmaps = Mipmaps::linear;
+
+    bool operator==(const PictureUse&) const = default;
+};
+
+/// Bits 0-1 and 2-3 how s and t go on beyond the picture, bit 4 whether a magnified and bit 5 whether a minified one is
+/// read at the nearest texel, bits 6-7 how mipmaps are: in the order of the enumerators.
+/// (shaders/scenes/material.glsl.)
+std::int32_t sampling_bits(const PictureUse& use);
+
+/// How a surface of a model is drawn. Colours are display values, as in pictures: what a file gives in linear light has
+/// been encoded (srgb_encode) by its reader. Only emitted light is linear, as it is added.
 struct Material {
     enum class Alpha { opaque, mask, blend };
 
     Alpha alpha = Alpha::opaque;
     float cutoff = 0.5f;  ///< of a mask: fragments of less alpha are not there
     glm::vec4 base_color{1};
-    int picture = -1;  ///< index into Model::pictures, multiplied with the colours; -1 for none
+    PictureUse base;       ///< multiplied with the colours
+    glm::vec3 emitted{0};  ///< linear light, may pass 1
+    PictureUse emission;   ///< multiplied with what is emitted; its alpha is of no meaning
     bool unlit = false;
+    bool double_sided = false;  ///< else triangles are seen from their front alone
 };
 
 struct ModelVertex {
-    glm::vec3 position;  ///< in the model's own space, after all transforms of its file; right-handed, y up
+    glm::vec3 position;  ///< from Model::origin, after all transforms of the file; right-handed, y up
     glm::vec3 normal;    ///< of length 1, or 0 where there is none
-    glm::vec2 uv;        ///< v down; pictures repeat
+    glm::vec2 uv;        ///< of the material's base; v down
     glm::vec4 color;     ///< multiplied with the material's
+    glm::vec2 emission_uv{0};
 };
 
 /// Triangles of one material.
 struct ModelPart {
     std::vector<ModelVertex> vertices;
-    std::vector<std::uint32_t> indices;  ///< triangles, each index within the vertices
-    std::uint32_t material = 0;          ///< index into Model::materials
+    std::vector<std::uint32_t>
+        indices;                 ///< triangles, counter-clockwise from the front, each index within the vertices
+    std::uint32_t material = 0;  ///< index into Model::materials
 };
 
 /// A mesh from a file, checked: all numbers are finite, all indices lie within what they point into, and there is at
@@ -38,8 +62,9 @@ struct ModelPart {
 struct Model {
     std::vector<ModelPart> parts;
     std::vector<Material> materials;
-    std::vector<Picture> pictures;  ///< all of one size; width and height are powers of two
-    std::vector<Note> notes;        ///< what of the file was not read, or read otherwise
+    std::vector<Picture> pictures;  ///< of sizes that arrange_pictures leaves as they are
+    glm::dvec3 origin{0};     ///< in the file's space; the middle of the model, so that floats hold positions well
+    std::vector<Note> notes;  ///< what of the file was not read, or read otherwise
 };
 
 /// Linear light 0..1 as the display value that stands for it (IEC 61966-2-1); outside of 0..1 it is clamped.

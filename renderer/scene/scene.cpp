@@ -1,6 +1,8 @@
 #include "renderer/scene/scene.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <numeric>
 #include <stdexcept>
@@ -17,6 +19,7 @@ constexpr int texture_count = 4;
 
 /// As in shaders/scenes/materials.glsl and material.glsl.
 constexpr GLuint pictures_unit = 3, materials_binding = 4;
+static_assert(pictures_unit + max_picture_arrays <= first_method_texture_unit);
 
 /// What `shading` of a spec means to shaders/scenes/real_work.glsl.
 struct Shading {
@@ -38,6 +41,20 @@ std::string define(const std::string& name, int value) {
     return "#define " + name + " " + std::to_string(value) + "\n";
 }
 
+/// For shaders/scenes/material.glsl.
+std::string material_defines(const Geometry& geometry) {
+    const std::int32_t plain = sampling_bits({});
+    const auto special = [&](const SurfaceMaterial& material) {
+        return std::ranges::any_of(std::array{material.base, material.emission}, [&](const SurfacePicture& picture) {
+            return picture.array >= 0 && picture.sampling != plain;
+        });
+    };
+    const auto emits = [](const SurfaceMaterial& material) { return material.emitted != glm::vec3(0); };
+    return define("PICTURE_ARRAYS", static_cast<int>(geometry.picture_arrays.arrays.size())) +
+           define("SAMPLERS", std::ranges::any_of(geometry.materials, special)) +
+           define("EMISSIVE", std::ranges::any_of(geometry.materials, emits));
+}
+
 /// Far to near; of equal depths the earlier submitted first.
 void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry) {
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
@@ -52,9 +69,11 @@ Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::
     make_shading(geometry, parameters);
     make_materials(geometry);
 
-    m_vertices =
-        gl::make_buffer(gl, "scene vertices", static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(Vertex)),
-                        geometry.vertices.data());
+    const Vertex none{};  // a GL buffer cannot be empty
+    const bool empty = geometry.vertices.empty();
+    m_vertices = gl::make_buffer(gl, "scene vertices",
+                                 static_cast<GLsizeiptr>((empty ? 1 : geometry.vertices.size()) * sizeof(Vertex)),
+                                 empty ? &none : geometry.vertices.data());
     m_vertex_array = gl::make_vertex_array(gl, "scene vertex array");
     const GLuint array = m_vertex_array.id();
     gl.VertexArrayVertexBuffer(array, 0, m_vertices.id(), 0, sizeof(Vertex));
@@ -67,6 +86,7 @@ Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::
         gl.VertexArrayAttribBinding(array, attribute, 0);
         gl.EnableVertexArrayAttrib(array, attribute);
     }
+    if (!geometry.emission_uvs.empty()) add_emission_uvs(geometry.emission_uvs);
 
     std::vector<std::size_t> opaque, transparent;
     for (std::size_t i = 0; i < geometry.primitives.size(); ++i)
@@ -79,6 +99,17 @@ Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::
     m_lists[static_cast<int>(Order::far_to_near)] = make_list(geometry, transparent, "indices far to near");
     std::ranges::reverse(transparent);
     m_lists[static_cast<int>(Order::near_to_far)] = make_list(geometry, transparent, "indices near to far");
+}
+
+void Scene::add_emission_uvs(const std::vector<glm::vec2>& uvs) {
+    constexpr GLuint attribute = 5, binding = 1;
+    m_emission_uvs = gl::make_buffer(m_gl, "scene emission uvs",
+                                     static_cast<GLsizeiptr>(uvs.size() * sizeof(glm::vec2)), uvs.data());
+    const GLuint array = m_vertex_array.id();
+    m_gl.VertexArrayVertexBuffer(array, binding, m_emission_uvs.id(), 0, sizeof(glm::vec2));
+    m_gl.VertexArrayAttribFormat(array, attribute, 2, GL_FLOAT, GL_FALSE, 0);
+    m_gl.VertexArrayAttribBinding(array, attribute, binding);
+    m_gl.EnableVertexArrayAttrib(array, attribute);
 }
 
 Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std::size_t>& order,
@@ -113,7 +144,7 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
         m_shading_source += gl::shader_file("scenes/real_work.glsl");
         if (shading->reads > 0) make_textures(geometry, parameters.at("texture"));
     } else {
-        m_shading_source += define("TEXTURED", !geometry.pictures.empty());
+        m_shading_source += material_defines(geometry);
         m_shading_source += gl::shader_file("scenes/" + name + ".glsl");
         if (geometry.volume) m_volume = VolumeTextures(m_gl, *geometry.volume);
     }
@@ -134,18 +165,21 @@ void Scene::make_materials(const Geometry& geometry) {
     m_materials = gl::make_buffer(m_gl, "scene materials",
                                   static_cast<GLsizeiptr>(geometry.materials.size() * sizeof(SurfaceMaterial)),
                                   geometry.materials.data());
-    if (!geometry.pictures.empty()) make_pictures(geometry.pictures);
+    make_pictures(geometry);
 }
 
-void Scene::make_pictures(const std::vector<Picture>& pictures) {
-    m_pictures = make_repeating_array("scene pictures");
-    const GLenum format = std::ranges::all_of(pictures, &Picture::eight_bit) ? GL_RGBA8 : GL_RGBA16F;
-    for (std::size_t layer = 0; layer < pictures.size(); ++layer) {
-        const std::vector<Image> levels = make_mipmaps(pictures[layer].image);
-        if (layer == 0)
-            m_gl.TextureStorage3D(m_pictures.id(), static_cast<GLsizei>(levels.size()), format, levels[0].width_px,
-                                  levels[0].height_px, static_cast<GLsizei>(pictures.size()));
-        fill_layer(m_pictures, static_cast<GLint>(layer), levels);
+void Scene::make_pictures(const Geometry& geometry) {
+    const GLenum format = std::ranges::all_of(geometry.pictures, &Picture::eight_bit) ? GL_RGBA8 : GL_RGBA16F;
+    for (const PictureArrays::Array& array : geometry.picture_arrays.arrays) {
+        m_pictures.push_back(make_repeating_array("scene pictures"));
+        const int longest = std::max(array.size_px.x, array.size_px.y);
+        m_gl.TextureStorage3D(m_pictures.back().id(), static_cast<GLsizei>(std::bit_width(unsigned(longest))), format,
+                              array.size_px.x, array.size_px.y, array.layers);
+    }
+    for (std::size_t i = 0; i < geometry.pictures.size(); ++i) {
+        const PictureArrays::Place& place = geometry.picture_arrays.places[i];
+        fill_layer(m_pictures[static_cast<std::size_t>(place.array)], place.layer, place.level,
+                   make_mipmaps(geometry.pictures[i].image));
     }
 }
 
@@ -160,10 +194,12 @@ gl::Texture Scene::make_repeating_array(std::string_view label) const {
     return texture;
 }
 
-void Scene::fill_layer(const gl::Texture& texture, GLint layer, const std::vector<Image>& levels) const {
+void Scene::fill_layer(const gl::Texture& texture, GLint layer, GLint first_level,
+                       const std::vector<Image>& levels) const {
     for (std::size_t level = 0; level < levels.size(); ++level)
-        m_gl.TextureSubImage3D(texture.id(), static_cast<GLint>(level), 0, 0, layer, levels[level].width_px,
-                               levels[level].height_px, 1, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
+        m_gl.TextureSubImage3D(texture.id(), first_level + static_cast<GLint>(level), 0, 0, layer,
+                               levels[level].width_px, levels[level].height_px, 1, GL_RGBA, GL_FLOAT,
+                               levels[level].rgba.data());
 }
 
 void Scene::make_textures(const Geometry& geometry, const nlohmann::json& texture) {
@@ -189,7 +225,7 @@ void Scene::fill_textures(const Picture& picture) {
     m_gl.TextureStorage3D(m_textures.id(), static_cast<GLsizei>(levels.size()),
                           picture.eight_bit ? GL_RGBA8 : GL_RGBA16F, picture.image.width_px, picture.image.height_px,
                           texture_count);
-    for (int layer = 0; layer < texture_count; ++layer) fill_layer(m_textures, layer, levels);
+    for (int layer = 0; layer < texture_count; ++layer) fill_layer(m_textures, layer, 0, levels);
 }
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
@@ -214,7 +250,8 @@ void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
     if (m_textures) m_gl.BindTextureUnit(0, m_textures.id());
     m_volume.bind(m_gl, program);
     if (m_materials) m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, materials_binding, m_materials.id());
-    if (m_pictures) m_gl.BindTextureUnit(pictures_unit, m_pictures.id());
+    for (std::size_t array = 0; array < m_pictures.size(); ++array)
+        m_gl.BindTextureUnit(pictures_unit + static_cast<GLuint>(array), m_pictures[array].id());
 }
 
 std::size_t Scene::triangle_count(Order order, std::size_t first, std::size_t count) const {

@@ -67,9 +67,10 @@ class Scene {
     void make_textures(const Geometry& geometry, const nlohmann::json& texture);
     void fill_textures(const Picture& picture);
     void make_materials(const Geometry& geometry);
-    void make_pictures(const std::vector<Picture>& pictures);
+    void make_pictures(const Geometry& geometry);
+    void add_emission_uvs(const std::vector<glm::vec2>& uvs);
     gl::Texture make_repeating_array(std::string_view label) const;
-    void fill_layer(const gl::Texture& texture, GLint layer, const std::vector<Image>& levels) const;
+    void fill_layer(const gl::Texture& texture, GLint layer, GLint first_level, const std::vector<Image>& levels) const;
     void bind(const gl::Program& program, const gl::Buffer& indices) const;
     const DrawList& list(Order order) const { return m_lists[static_cast<std::size_t>(order)]; }
 
@@ -88,8 +89,9 @@ class Scene {
     int m_reads = 0;
     gl::Texture m_textures;  ///< an array of four
     VolumeTextures m_volume;
-    gl::Buffer m_materials;  ///< of a model, and their pictures as an array
-    gl::Texture m_pictures;
+    gl::Buffer m_materials;  ///< of a model, and their pictures as arrays
+    std::vector<gl::Texture> m_pictures;
+    gl::Buffer m_emission_uvs;
 };
 
 /// First texture unit that methods may use.

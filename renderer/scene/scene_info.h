@@ -9,6 +9,7 @@
 
 #include "renderer/notes.h"
 #include "renderer/scene/assets.h"
+#include "renderer/scene/picture_arrays.h"
 #include "renderer/scene/volume_shading.h"
 #include "renderer/spec/param.h"
 #include "renderer/spec/spec.h"
@@ -17,14 +18,15 @@ namespace sheer {
 
 struct Vertex {
     glm::vec3 position;       ///< before view_projection; with the identity: x right, y up, -1..1, depth 0 (near) to 1
-    glm::vec2 uv;             ///< 0..1, v down; untextured_uv: the tint alone, for opaque primitives
+    glm::vec2 uv;             ///< v down; untextured_uv: the tint alone, for opaque primitives
     glm::vec4 tint;           ///< straight colour and alpha; colours may pass 1, methods clamp the shaded fragment
     std::uint32_t primitive;  ///< index into Geometry::primitives
     std::uint32_t material = 0;  ///< index into Geometry::materials, where there are any
 };
 
-/// At every vertex of an opaque primitive: its colour is the tint, whatever the shading. (shaders/common/opaque.glsl.)
-inline constexpr glm::vec2 untextured_uv{-1, -1};
+/// At every vertex of an opaque primitive: its colour is the tint, whatever the shading. No picture's coordinates lie
+/// so far out. (shaders/common/opaque.glsl.)
+inline constexpr glm::vec2 untextured_uv{-1e9f, -1e9f};
 
 /// What a sorted method orders: a quad, a sprite, a slice, a triangle.
 struct Primitive {
@@ -34,10 +36,19 @@ struct Primitive {
     bool opaque = false;
 };
 
+/// How a material reads a picture: what shaders/scenes/materials.glsl knows of it, byte for byte.
+struct SurfacePicture {
+    std::int32_t array = -1;  ///< of the scene's picture arrays; -1 for no picture
+    std::int32_t layer = 0;
+    std::int32_t level = 0;     ///< that holds the picture itself
+    std::int32_t sampling = 0;  ///< sampling_bits
+};
+
 /// What shaders/scenes/materials.glsl knows of a material, byte for byte.
 struct SurfaceMaterial {
-    std::int32_t picture = -1;  ///< index into Geometry::pictures; -1 for none
-    float cutoff = 0;           ///< opaque fragments of less alpha are not there
+    SurfacePicture base, emission;
+    glm::vec3 emitted{0};  ///< linear light
+    float cutoff = 0;      ///< opaque fragments of less alpha are not there
 };
 
 /// A scene on the CPU. Primitives stand in the order of submission.
@@ -48,8 +59,10 @@ struct Geometry {
     glm::mat4 view_projection{1.0f};
     nlohmann::json camera;  ///< where it is looked at from, as the spec says it; null for scenes that have no camera
     std::vector<SurfaceMaterial> materials;
-    std::vector<Picture> pictures;   ///< of the materials; all of one size
-    std::optional<Picture> texture;  ///< square; in place of the four procedural textures
+    std::vector<Picture> pictures;        ///< of the materials
+    PictureArrays picture_arrays;         ///< where the pictures lie
+    std::vector<glm::vec2> emission_uvs;  ///< of the vertices, where a material has an emission picture; else none
+    std::optional<Picture> texture;       ///< square; in place of the four procedural textures
     std::optional<VolumeShading> volume;
     bool parallel = false;    ///< drawing the primitives in depth order is exact: none intersect, each has one depth
     std::vector<Note> notes;  ///< of the files that the scene is made from

@@ -9,7 +9,9 @@ namespace sheer::view {
 
 namespace {
 
-constexpr double highest_deg = 89, nearest = 1e-3, farthest = 1e4;
+constexpr double highest_deg = 89, farthest = 1e18;
+/// Of the target's coordinates: closer to it, doubles would no longer tell directions well.
+constexpr double nearest_ratio = 1e-9;
 
 Camera camera_of(const nlohmann::json& camera) {
     return read_camera(camera, {}, {0, 0, 1}, 1);
@@ -33,7 +35,7 @@ nlohmann::json orbited(const nlohmann::json& camera, double turn_rad, double ris
 nlohmann::json moved_away(const nlohmann::json& camera, double factor) {
     Camera moved = camera_of(camera);
     const glm::dvec3 offset = moved.eye - moved.target;
-    const double distance = glm::length(offset);
+    const double distance = glm::length(offset), nearest = nearest_ratio * std::max(1.0, glm::length(moved.target));
     moved.eye = moved.target + offset * (std::clamp(distance * factor, nearest, farthest) / distance);
     return camera_json(moved);
 }

@@ -3,7 +3,7 @@ layout(location = 0) out vec4 o_color;  // no blending
 
 void main() {
     begin_fragment();
-    bool untextured = v_uv.x < 0.0;
+    bool untextured = v_uv.x < -1e8;
     vec4 work = v_tint;
     if (!untextured) work = real_work(v_uv, v_tint);
 #if SHEER_MASKED

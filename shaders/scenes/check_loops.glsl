@@ -5,7 +5,7 @@ uniform bool u_opaque;
 
 void main() {
     begin_fragment();
-    bool untextured = u_opaque && v_uv.x < 0.0;
+    bool untextured = u_opaque && v_uv.x < -1e8;
     if (untextured) return;
     real_work(v_uv, v_tint);
     if (sheer_iterations_left < 0) imageAtomicAdd(u_refused, ivec2(gl_FragCoord.xy), 1u);

@@ -1,6 +1,15 @@
 // The surfaces of a model, whatever the shading. In a scene that has materials it follows the inputs.
+struct SheerPicture {
+    int array;     // of u_pictures; -1 for no picture
+    int layer;
+    int level;     // that holds the picture itself, its mipmaps follow
+    int sampling;  // see sampling_bits in renderer/scene/scene_info.h
+};
+
 struct SheerMaterial {
-    int picture;   // layer of u_pictures; -1 for none
+    SheerPicture base;
+    SheerPicture emission;
+    vec3 emitted;  // linear light
     float cutoff;  // opaque fragments of less alpha are not there; 0 where all are
 };
 

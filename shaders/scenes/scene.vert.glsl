@@ -4,6 +4,7 @@ layout(location = 1) in vec2 a_uv;
 layout(location = 2) in vec4 a_tint;
 layout(location = 3) in uint a_primitive;
 layout(location = 4) in uint a_material;
+layout(location = 5) in vec2 a_emission_uv;
 
 uniform mat4 u_view_projection;
 
@@ -12,6 +13,7 @@ out vec2 v_uv;
 out vec4 v_tint;
 flat out uint v_primitive;
 flat out uint v_material;
+out vec2 v_emission_uv;
 
 // Passes that are drawn with different programs must meet at equal depths.
 invariant gl_Position;
@@ -23,4 +25,5 @@ void main() {
     v_tint = a_tint;
     v_primitive = a_primitive;
     v_material = a_material;
+    v_emission_uv = a_emission_uv;
 }

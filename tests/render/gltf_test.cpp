@@ -30,7 +30,7 @@ ModelPart square(float z, std::uint32_t material, const glm::vec2& uv_shift = {0
                                  {0, 0, 1},
                                  corner + uv_shift,
                                  glm::vec4(1)});
-    part.indices = {0, 1, 2, 0, 2, 3};
+    part.indices = {0, 2, 1, 0, 3, 2};
     return part;
 }
 
@@ -67,7 +67,8 @@ Model glass() {
 /// The checker, nearest, before one that blends and one that is opaque. Texture coordinates under 0 repeat the picture.
 Model grid() {
     Model model = glass();
-    model.materials[0] = {.alpha = Material::Alpha::mask, .cutoff = 0.5f, .base_color = {1, 0.5f, 1, 1}, .picture = 0};
+    model.materials[0] = {
+        .alpha = Material::Alpha::mask, .cutoff = 0.5f, .base_color = {1, 0.5f, 1, 1}, .base = {.picture = 0}};
     model.parts[0] = square(2, 0, {-3, -1});
     model.pictures = {checker()};
     return model;

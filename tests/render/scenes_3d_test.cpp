@@ -45,7 +45,7 @@ class Hand {
     }
 
     Image picture(const Camera& camera, const std::string& shading = "constant") {
-        look_through(m_geometry, camera, {{0, 0, 0}, 3}, 1);
+        look_through(m_geometry, camera, 1);
         const Scene scene(m_context->gl(), m_geometry,
                           {{"shading", shading}, {"texture", {{"image", "leaf"}, {"size", 16}}}});
         const Target target(m_context->gl(), m_image, PixelFormat::rgba32f);

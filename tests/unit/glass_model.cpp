@@ -139,6 +139,7 @@ std::string make_glass_model() {
                amber, {0.45, 0, 0.5});
     life.place(life.turned(smoothed({{0.01, 0.02}, {0.2, 0.02}, {0.24, 0.4}, {0.26, 0.7}}, 1)), clear, {-0.3, 0, 0.7});
     life.place(life.turned({{0.01, 0.04}, {0.19, 0.04}, {0.21, 0.4}, {0.01, 0.4}}), water, {-0.3, 0, 0.7});
+    for (json& material : writer.document["materials"]) material["doubleSided"] = true;
     return writer.glb();
 }
 

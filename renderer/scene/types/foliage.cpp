@@ -122,7 +122,7 @@ Geometry build_foliage(const nlohmann::json& scene, const ImageSpec& image, Asse
     for (const Tree& tree : trees)
         for (std::size_t i = 0; i < planes; ++i) add_plane(geometry, tree, size * tree.height / 2.2, random);
     const Sphere bounds = bounding_sphere(geometry.vertices);
-    look_through(geometry, read_camera(scene.at("camera"), bounds, {0, 0.22, 1}, aspect), bounds, aspect);
+    look_through(geometry, read_camera(scene.at("camera"), bounds, {0, 0.22, 1}, aspect), aspect);
     return geometry;
 }
 

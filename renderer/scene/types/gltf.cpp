@@ -4,6 +4,12 @@
 // The methods blend display values, so every factor is one: base colour and vertex colour are linear in the file and
 // have been sRGB-encoded on their own, and the picture is used as it is stored. For a power law the product of encoded
 // factors is the encoded product; sRGB differs from one near black only.
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
 #include "renderer/scene/camera.h"
 #include "renderer/scene/model.h"
 #include "renderer/scene/solids.h"
@@ -14,82 +20,173 @@ namespace {
 
 using glm::dvec3;
 
-/// The whole of the scene's alpha test is in the materials: nothing lies under a cutoff of 0.
-float cutoff_of(const Material& material) {
-    return material.alpha == Material::Alpha::mask ? material.cutoff : 0;
+/// What a device may lose where it interpolates equal values, and a product of two alphas in rounding; as fractions.
+constexpr float interpolation_slack = 1.0f / 65536, product_slack = 1e-6f;
+
+/// The alpha of all its vertices, if it is one.
+std::optional<float> constant_alpha(const ModelPart& part) {
+    const float first = part.vertices.front().color.a;
+    const bool same =
+        std::ranges::all_of(part.vertices, [&](const ModelVertex& vertex) { return vertex.color.a == first; });
+    return same ? std::optional(first) : std::nullopt;
+}
+
+/// How the alpha of a masked part is compared. What is the same all over the part moves into the cutoff, so that what
+/// is as large as the cutoff is drawn, whatever interpolation makes of it.
+struct Mask {
+    float cutoff = 0;    ///< of the alpha that is left; over 1 nothing is drawn
+    bool varies = true;  ///< whether the vertices' alpha is left
+};
+
+Mask mask_of(const Material& material, const ModelPart& part) {
+    const std::optional<float> alpha = constant_alpha(part);
+    const float constant = material.base_color.a * alpha.value_or(1),
+                slack = material.base_color.a < 1 && alpha.value_or(1) < 1 ? product_slack : 0;
+    if (material.cutoff == 0) return {0, !alpha};
+    if (constant < material.cutoff * (1 - slack)) return {2, !alpha};
+    return {material.cutoff / constant * (1 - interpolation_slack), !alpha};
 }
 
 class Builder {
   public:
-    Builder(const Model& model, bool light) : m_model(model), m_light(light) {}
+    /// `eye` is from the model's origin.
+    Builder(const Model& model, bool light, const dvec3& eye) : m_model(model), m_light(light), m_eye(eye) {}
 
     Geometry build() {
-        for (const Material& material : m_model.materials)
-            m_geometry.materials.push_back({material.picture, cutoff_of(material)});
+        std::vector<glm::ivec2> sizes;
+        for (const Picture& picture : m_model.pictures)
+            sizes.emplace_back(picture.image.width_px, picture.image.height_px);
+        m_geometry.picture_arrays = arrange_pictures(sizes);
         m_geometry.pictures = m_model.pictures;
-        move_uvs();
-        for (const ModelPart& part : m_model.parts) {
-            if (m_model.materials[part.material].alpha == Material::Alpha::blend) {
-                add_triangles(part);
-            } else {
-                add_solid(part);
-            }
-        }
+        m_emission_uvs = std::ranges::any_of(m_model.materials,
+                                             [](const Material& material) { return material.emission.picture >= 0; });
+        for (const ModelPart& part : m_model.parts) add_part(part);
         return std::move(m_geometry);
     }
 
   private:
-    /// Under 0 a texture coordinate has a meaning of its own (untextured_uv); pictures repeat, so whole numbers may be
-    /// added.
-    void move_uvs() {
-        for (const ModelPart& part : m_model.parts)
-            for (const ModelVertex& vertex : part.vertices) m_uv_shift = glm::max(m_uv_shift, -glm::floor(vertex.uv));
+    void add_part(const ModelPart& part) {
+        const Material& material = m_model.materials[part.material];
+        const Mask mask = material.alpha == Material::Alpha::mask ? mask_of(material, part) : Mask{};
+        if (mask.cutoff > 1)
+            return add_note(
+                m_geometry.notes,
+                {"mask-hides-all", "Masked surfaces whose alpha is under their cutoff everywhere are not drawn.",
+                 "/scene/model"});
+        const auto [known, added] = m_numbers.try_emplace({part.material, mask.cutoff},
+                                                          static_cast<std::uint32_t>(m_geometry.materials.size()));
+        if (added)
+            m_geometry.materials.push_back(
+                {picture(material.base), picture(material.emission), material.emitted, mask.cutoff});
+        m_surface = {&material, known->second, mask.varies};
+        m_vertex_numbers.clear();
+        if (material.alpha == Material::Alpha::blend) {
+            add_triangles(part);
+        } else {
+            add_solid(part);
+        }
     }
 
-    Vertex vertex(const ModelVertex& from, const ModelPart& part) const {
-        const Material& material = m_model.materials[part.material];
+    SurfacePicture picture(const PictureUse& use) const {
+        if (use.picture < 0) return {};
+        const PictureArrays::Place& place = m_geometry.picture_arrays.places[static_cast<std::size_t>(use.picture)];
+        return {place.array, place.layer, place.level, sampling_bits(use)};
+    }
+
+    enum class Side { front, back, hidden };
+
+    /// Which side of the triangle from corner `i` on is seen. One without an area counts as its front.
+    Side side_of(const ModelPart& part, std::size_t i) const {
+        const auto at = [&](std::size_t corner) { return dvec3(part.vertices[part.indices[i + corner]].position); };
+        const dvec3 first = at(0), normal = glm::cross(at(1) - first, at(2) - first);
+        if (glm::dot(normal, m_eye - first) >= 0) return Side::front;
+        return m_surface.material->double_sided ? Side::back : Side::hidden;
+    }
+
+    /// Adds a vertex, lit from the side that is seen.
+    std::uint32_t add_vertex(const ModelVertex& from, Side side) {
+        const Material& material = *m_surface.material;
         glm::vec4 tint = from.color * material.base_color;
         if (m_light && !material.unlit && from.normal != glm::vec3(0)) {
-            const dvec3 lit = daylight(dvec3(glm::vec3(tint)), dvec3(from.normal));
-            tint = glm::vec4(glm::vec3(glm::clamp(lit, 0.0, 1.0)), tint.a);
+            const dvec3 normal(side == Side::back ? -from.normal : from.normal);
+            tint = glm::vec4(glm::vec3(glm::clamp(daylight(dvec3(glm::vec3(tint)), normal), 0.0, 1.0)), tint.a);
         }
-        return {from.position, from.uv + m_uv_shift, tint, static_cast<std::uint32_t>(m_geometry.primitives.size()),
-                part.material};
+        if (material.alpha == Material::Alpha::mask) tint.a = m_surface.alpha_varies ? from.color.a : 1;
+        if (m_emission_uvs) m_geometry.emission_uvs.push_back(from.emission_uv);
+        m_geometry.vertices.push_back(
+            {from.position, from.uv, tint, static_cast<std::uint32_t>(m_geometry.primitives.size()), m_surface.number});
+        return static_cast<std::uint32_t>(m_geometry.vertices.size() - 1);
     }
 
     void add_solid(const ModelPart& part) {
-        const auto first_vertex = static_cast<std::uint32_t>(m_geometry.vertices.size());
         const auto first_index = static_cast<std::uint32_t>(m_geometry.indices.size());
-        for (const ModelVertex& from : part.vertices) m_geometry.vertices.push_back(vertex(from, part));
-        for (const std::uint32_t index : part.indices) m_geometry.indices.push_back(first_vertex + index);
-        m_geometry.primitives.push_back({first_index, static_cast<std::uint32_t>(part.indices.size()), 0, true});
+        for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+            const Side side = side_of(part, i);
+            if (side == Side::hidden) continue;
+            for (std::size_t corner = i; corner < i + 3; ++corner) {
+                const std::uint32_t index = part.indices[corner];
+                const auto [known, added] = m_vertex_numbers.try_emplace({index, side});
+                if (added) known->second = add_vertex(part.vertices[index], side);
+                m_geometry.indices.push_back(known->second);
+            }
+        }
+        const auto count = static_cast<std::uint32_t>(m_geometry.indices.size()) - first_index;
+        if (count > 0) m_geometry.primitives.push_back({first_index, count, 0, true});
     }
 
     void add_triangles(const ModelPart& part) {
         for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+            const Side side = side_of(part, i);
+            if (side == Side::hidden) continue;
             const auto first_index = static_cast<std::uint32_t>(m_geometry.indices.size());
-            for (std::size_t corner = i; corner < i + 3; ++corner) {
-                m_geometry.indices.push_back(static_cast<std::uint32_t>(m_geometry.vertices.size()));
-                m_geometry.vertices.push_back(vertex(part.vertices[part.indices[corner]], part));
-            }
+            for (std::size_t corner = i; corner < i + 3; ++corner)
+                m_geometry.indices.push_back(add_vertex(part.vertices[part.indices[corner]], side));
             m_geometry.primitives.push_back({first_index, 3, 0, false});
         }
     }
 
     const Model& m_model;
     bool m_light;
+    dvec3 m_eye;
     Geometry m_geometry;
-    glm::vec2 m_uv_shift{0};
+    bool m_emission_uvs = false;
+    std::map<std::pair<std::uint32_t, float>, std::uint32_t> m_numbers;  ///< by the model's material and the cutoff
+    /// Of the part that is being added.
+    struct Surface {
+        const Material* material = nullptr;
+        std::uint32_t number = 0;
+        bool alpha_varies = true;
+    };
+    Surface m_surface;
+    std::map<std::pair<std::uint32_t, Side>, std::uint32_t> m_vertex_numbers;  ///< by the part's vertex and its side
 };
+
+/// From the model's origin.
+Sphere bounds_of(const Model& model) {
+    dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+    const auto each = [&](const auto& action) {
+        for (const ModelPart& part : model.parts)
+            for (const ModelVertex& vertex : part.vertices) action(dvec3(vertex.position));
+    };
+    each([&](const dvec3& at) {
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    });
+    Sphere sphere{(low + high) / 2.0, 0};
+    each([&](const dvec3& at) { sphere.radius = std::max(sphere.radius, glm::length(at - sphere.centre)); });
+    if (sphere.radius == 0) sphere.radius = 1;
+    return sphere;
+}
 
 Geometry build_gltf(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets) {
     const Model model = assets.model(scene.at("model"));
-    Geometry geometry = Builder(model, scene.at("light") == "daylight").build();
-    add_notes_of(geometry.notes, model.notes, "/scene/model");
     const double aspect = static_cast<double>(image.width_px) / image.height_px;
-    Sphere bounds = bounding_sphere(geometry.vertices);
-    if (bounds.radius == 0) bounds.radius = 1;
-    look_through(geometry, read_camera(scene.at("camera"), bounds, {0.35, 0.3, 1}, aspect), bounds, aspect);
+    Sphere bounds = bounds_of(model);
+    bounds.centre += model.origin;
+    const Camera camera = read_camera(scene.at("camera"), bounds, {0.35, 0.3, 1}, aspect);
+    Geometry geometry = Builder(model, scene.at("light") == "daylight", camera.eye - model.origin).build();
+    add_notes_of(geometry.notes, model.notes, "/scene/model");
+    look_through(geometry, camera, aspect, model.origin);
     return geometry;
 }
 

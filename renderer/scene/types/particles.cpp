@@ -186,9 +186,7 @@ Geometry build_particles(const nlohmann::json& scene, const ImageSpec& image, As
         sprite.tint.a *= static_cast<float>(grain.alpha);
         add_sprite(geometry, sprite, view, random);
     }
-    geometry.view_projection = glm::mat4(camera.projection(fire_bounds, aspect));
-    geometry.camera = camera_json(camera);
-    set_depths(geometry, glm::dmat4(1));
+    look_from_camera_space(geometry, camera, aspect);
     geometry.parallel = true;
     return geometry;
 }

@@ -162,9 +162,7 @@ Geometry build_volume(const json& scene, const ImageSpec& image, AssetReader& as
     for (Vertex& vertex : geometry.vertices)
         vertex.position = glm::vec3(view * glm::dvec4(glm::dvec3(vertex.position), 1));
     const double distance = add_slices(geometry, box, view, scene.at("slices").get<int>(), density);
-    geometry.view_projection = glm::mat4(camera.projection(bounds, aspect));
-    geometry.camera = camera_json(camera);
-    set_depths(geometry, glm::dmat4(1));
+    look_from_camera_space(geometry, camera, aspect);
     geometry.parallel = true;
 
     glm::dmat4 to_texture(1);

@@ -1,0 +1,20 @@
+#pragma once
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace sheer {
+
+/// Whether what the extension says is read here.
+bool is_extension_read(std::string_view name);
+
+/// Whether the extension adds only to what is not drawn (lights, animation, reflections, metadata), so that a file may
+/// need it and still be drawn.
+bool is_extension_beside_the_picture(std::string_view name);
+
+/// The extensions of a glTF document that are not read, each with the place of its first use, "materials[2]", or where
+/// it is only announced "extensionsUsed".
+std::map<std::string, std::string> unread_extensions(const nlohmann::json& document);
+
+}  // namespace sheer

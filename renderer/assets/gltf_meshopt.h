@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "renderer/assets/gltf_object.h"
+
+namespace sheer {
+
+/// The bytes of a buffer view that EXT_meshopt_compression holds: `extension` says how `compressed` is to be read.
+/// Source: Khronos, EXT_meshopt_compression; meshoptimizer. Throws AssetError.
+std::string decode_meshopt(const GltfObject& extension, std::string_view compressed);
+
+}  // namespace sheer
