@@ -47,14 +47,19 @@ constexpr std::array beside_beginnings = {"AGI_",
                                           "OMI_",
                                           "VRM"};
 
+std::string below(const std::string& where, const std::string& name) {
+    return where.empty() ? name : where + "." + name;
+}
+
 void find_uses(const json& value, const std::string& where, std::map<std::string, std::string>& uses) {
     if (value.is_array()) {
         for (std::size_t i = 0; i < value.size(); ++i) find_uses(value[i], where + "[" + std::to_string(i) + "]", uses);
     } else if (value.is_object()) {
         for (const auto& [name, inner] : value.items()) {
             if (name == "extensions" && inner.is_object())
-                for (const auto& [extension, ignored] : inner.items()) uses.try_emplace(extension, where);
-            if (name != "extras") find_uses(inner, where.empty() ? name : where + "." + name, uses);
+                for (const auto& [extension, ignored] : inner.items())
+                    uses.try_emplace(extension, below(where, "extensions." + extension));
+            if (name != "extras") find_uses(inner, below(where, name), uses);
         }
     }
 }

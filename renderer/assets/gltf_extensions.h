@@ -13,8 +13,8 @@ bool is_extension_read(std::string_view name);
 /// need it and still be drawn.
 bool is_extension_beside_the_picture(std::string_view name);
 
-/// The extensions of a glTF document that are not read, each with the place of its first use, "materials[2]", or where
-/// it is only announced "extensionsUsed".
+/// The extensions of a glTF document that are not read, each with the place of its first use,
+/// "materials[2].extensions.KHR_...", or where it is only announced "extensionsUsed".
 std::map<std::string, std::string> unread_extensions(const nlohmann::json& document);
 
 }  // namespace sheer

@@ -194,6 +194,28 @@ TEST(GltfPictures, AreFilteredFarOff) {
     }
 }
 
+/// What has exactly the cutoff's alpha is drawn as if it were opaque, from wherever it is seen.
+TEST(GltfMasks, AtTheirCutoffAreWhole) {
+    const auto context = make_context("egl");
+    for (const float alpha : {0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1.0f})
+        for (const glm::vec3 eye : {glm::vec3{0, 0, 30}, {25, 7, 9}, {-14, 21, 5}}) {
+            nlohmann::json scene = model_scene();
+            scene["camera"]["eye"] = {eye.x, eye.y, eye.z};
+            const Spec spec = make_spec(scene, {"b2f"}, 64, "rgba32f");
+            const auto picture = [&](Material::Alpha kind, float vertices) {
+                Model model;
+                model.materials = {{.alpha = kind, .cutoff = alpha, .base_color = {1, 0, 0, alpha / vertices}}};
+                model.parts = {square(0, 0)};
+                for (ModelVertex& vertex : model.parts[0].vertices) vertex.color.a = vertices;
+                return model_stage(*context, spec, model).picture(spec.methods[0]);
+            };
+            const Image opaque = picture(Material::Alpha::opaque, 1);
+            EXPECT_GT(opaque.pixel(32, 32)[0], 0.9);
+            EXPECT_EQ(picture(Material::Alpha::mask, 1).rgba, opaque.rgba) << alpha;
+            EXPECT_EQ(picture(Material::Alpha::mask, std::sqrt(alpha)).rgba, opaque.rgba) << alpha;
+        }
+}
+
 /// The leaf's holes let the mask's cutoff show what is behind; without reads the tint alone is tested.
 TEST(GltfShadings, OthersWorkWithTheTint) {
     const auto context = make_context("egl");

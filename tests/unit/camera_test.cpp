@@ -39,6 +39,70 @@ TEST(Camera, SeesFromAnySide) {
     EXPECT_GT(project(camera, {3, 7}, 1, {0, 1, 0}).y, 0);
 }
 
+/// A square of half a side `size` that looks along z, for what lies in a view.
+void add_square(Geometry& geometry, const glm::vec3& centre, float size) {
+    const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
+    for (const glm::vec2 corner : {glm::vec2{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+        geometry.vertices.push_back({centre + glm::vec3(size * corner, 0), {}, {}, 0});
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) geometry.indices.push_back(first + i);
+    if (geometry.primitives.empty()) geometry.primitives.push_back({});
+}
+
+const Camera right_angle{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 90};
+
+Planes planes_of(const Geometry& geometry) {
+    return planes_of_view(geometry, right_angle.view(), 90, 1);
+}
+
+/// What is near is not cut off, however far the farthest is; what lies beside the view or behind the eye does not
+/// count.
+TEST(Camera, PlanesHugWhatLiesInTheView) {
+    Geometry geometry;
+    add_square(geometry, {0, 0, -2}, 1);
+    add_square(geometry, {0, 0, -1e5f}, 1000);
+    add_square(geometry, {50, 0, -1}, 1);  // beside it
+    add_square(geometry, {0, 0, 3}, 100);  // behind
+    const Planes planes = planes_of(geometry);
+    EXPECT_NEAR(planes.near, 2, 0.001);
+    EXPECT_NEAR(planes.far, 1e5, 100);
+    EXPECT_LT(planes.near, 2);
+    EXPECT_GT(planes.far, 1e5);
+}
+
+/// A floor 1 below the eye that reaches from far behind it to 1000 ahead: the lower edge of a right angle meets it
+/// at 1.
+TEST(Camera, PlanesOfWhatIsCutByTheView) {
+    Geometry geometry;
+    for (const glm::vec3 corner : {glm::vec3{-500, -1, 1000}, {500, -1, 1000}, {0, -1, -1000}})
+        geometry.vertices.push_back({corner, {}, {}, 0});
+    geometry.indices = {0, 1, 2};
+    const Planes planes = planes_of(geometry);
+    EXPECT_NEAR(planes.near, 1, 0.001);
+    EXPECT_NEAR(planes.far, 1000, 1);
+    // Through the eye there is no nearest point: the near plane stays a millionth of the far one's distance away.
+    for (Vertex& vertex : geometry.vertices) vertex.position.y = 0;
+    EXPECT_NEAR(planes_of(geometry).near, planes_of(geometry).far * 1e-6, 1e-9);
+    EXPECT_LT(planes_of({}).near, planes_of({}).far);
+}
+
+/// At Web Mercator coordinates, and with the smallest and largest scenes that floats hold, points lie as near the
+/// origin.
+TEST(Camera, PointsLieTheSameFarAwayAndAtAnyScale) {
+    const auto clip = [](const glm::dvec3& origin, float scale) {
+        Geometry geometry;
+        add_square(geometry, glm::vec3(scale, scale / 2, 0), scale);
+        look_through(geometry, {origin + glm::dvec3(0, 0, 5.0 * scale), origin, {0, 1, 0}, 90}, 1, origin);
+        const glm::vec4 at = geometry.view_projection * glm::vec4(geometry.vertices[2].position, 1);
+        return glm::vec3(at) / at.w;
+    };
+    const glm::vec3 usual = clip({0, 0, 0}, 1);
+    EXPECT_NEAR(usual.x, 0.4, 1e-6);
+    EXPECT_NEAR(usual.y, 0.3, 1e-6);
+    EXPECT_LT(glm::length(clip({13405321.25, 35.5, -4892765.75}, 1) - usual), 1e-5);
+    for (const float scale : {1e-20f, 1e-7f, 1e7f, 1e14f})
+        EXPECT_LT(glm::length(clip({0, 0, 0}, scale) - usual), 1e-5) << scale;
+}
+
 /// The sphere's outline touches the upper and lower edge of a wide picture, and the left and right of a tall one.
 TEST(Camera, FramesASphere) {
     const Sphere bounds{{1, 2, 3}, 1.5};
@@ -106,6 +170,19 @@ TEST(Camera, DegenerateOnesAreErrors) {
         EXPECT_THAT(wrong_fields({{"eye", {0, 0, 5}}, {"target", {0, 0, 0}}, {"up", {0, 0, -3}}}, type),
                     ElementsAre("/scene/camera/up"));
         EXPECT_THAT(wrong_fields({{"up", {0, 0, 0}}}, type), ElementsAre("/scene/camera/up"));
+    }
+}
+
+TEST(Camera, MayBeAnywhere) {
+    EXPECT_THAT(wrong_fields({{"eye", {2e7, 5e6, 1e7}}, {"target", {2e7, 5e6, 1e7 - 1}}}), IsEmpty());
+    EXPECT_THAT(wrong_fields({{"eye", {0, 0, 1e300}}, {"target", {0, 0, -1e300}}, {"up", {0, 1e-200, 0}}}), IsEmpty());
+    for (const double far : {1e9, 1e40, 1e300}) {
+        const Spec spec =
+            parse_spec({{"scene", {{"type", "particles"}, {"count", 5}, {"camera", {{"eye", {far, far, -far}}}}}},
+                        {"methods", {"b2f"}}});
+        NoAssets assets;
+        const Geometry geometry = build_geometry(spec.scene, spec.image, assets);
+        for (int i = 0; i < 16; ++i) EXPECT_TRUE(std::isfinite(geometry.view_projection[i / 4][i % 4])) << far;
     }
 }
 

@@ -71,6 +71,7 @@ class GlbWriter {
     nlohmann::json document = {
         {"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", nlohmann::json::array()}}}}};
     std::string binary;
+    std::vector<nlohmann::json> other_buffers;  ///< of a .glb, from buffer 1 on
 
     int add(const char* list, nlohmann::json object) {
         document[list].push_back(std::move(object));
@@ -129,7 +130,10 @@ class GlbWriter {
         std::string data = binary;
         data.resize((data.size() + 3) / 4 * 4);
         nlohmann::json whole = document;
-        if (!data.empty()) whole["buffers"] = {{{"byteLength", data.size()}}};
+        if (!data.empty()) {
+            whole["buffers"] = {{{"byteLength", data.size()}}};
+            for (const nlohmann::json& other : other_buffers) whole["buffers"].push_back(other);
+        }
         return wrap(whole.dump(), data);
     }
 
