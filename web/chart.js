@@ -290,7 +290,7 @@ function name_nodes(points, right) {
       return svg(
         "text",
         {
-          class: point.grey ? "name grey" : "name",
+          class: point.grey ? "name grey" : point.fastest ? "name fastest" : "name",
           x: on_left ? point.x - 4 : point.x + 4,
           y,
           dy: "0.32em",
@@ -302,8 +302,9 @@ function name_nodes(points, right) {
 }
 
 /**
- * Methods in a plane. `points`: [{label, index, x, y, x_interval, grey, lines}]: `index` gives colour and shape, `x` over 0 on a logarithmic axis, `y` not below
- * 0; grey ones are drawn back; a line of steps joins the others. `lines` are shown for the point.
+ * Methods in a plane. `points`: [{label, index, x, y, x_interval, grey, fastest, lines}]: `index` gives colour and shape,
+ * `x` over 0 on a logarithmic axis, `y` not below 0; grey ones are drawn back, names of `fastest` ones are bold; a line of
+ * steps joins those that are not grey. `lines` are shown for the point.
  */
 export function scatter_chart({ title, unit, x_name, label, points }) {
   const x_axis = value_axis(

@@ -1,6 +1,6 @@
 // Speed against error of a run's methods: which of them are worth their time, as a chart and in words.
 import { scatter_chart } from "./chart.js";
-import { value_at } from "./columns.js";
+import { fastest_labels, value_at } from "./columns.js";
 import { el } from "./dom.js";
 import { column_decimals, fixed, is_number } from "./format.js";
 
@@ -20,6 +20,7 @@ export function frontier_section(run) {
   if (!frontier) return null;
   const error_path = `metrics.${frontier.error ?? "flip.mean"}`;
   const by = new Map(frontier.dominated.map((entry) => [entry.method, entry.by]));
+  const fastest = fastest_labels(run);
   const measured = run.results
     .map((result, index) => ({
       result,
@@ -42,6 +43,7 @@ export function frontier_section(run) {
       y: error,
       x_interval: interval,
       grey: better !== undefined,
+      fastest: fastest.has(result.label),
       lines: [
         el("strong", {}, result.label),
         el("span", {}, `${fixed(time_ms, time_decimals)} ms${range}`),

@@ -106,7 +106,7 @@ function speedup_cell(result, column, { judged, decimals, best, is_baseline }) {
       interval_text(ci95),
       verdict ? el("span", { class: `verdict-word ${verdict.replace(" ", "-")}` }, verdict) : null,
     ),
-    reason ? el("span", { class: "interval why" }, reason) : null,
+    reason ? el("span", { class: "interval" }, reason) : null,
   ]);
 }
 

@@ -107,6 +107,17 @@ const marked = (page) =>
     cells.map((cell) => ({ label: cell.closest("tr").dataset.label, path: cell.dataset.path })),
   );
 
+/** Labels of the methods whose names are bold in the chart of speed against error. */
+async function bold_names(page) {
+  const chart = page.getByRole("region", { name: "Speed against error" });
+  await chart.locator("path.marker").first().waitFor();
+  return chart
+    .locator("text.name")
+    .evaluateAll((all) =>
+      all.filter((one) => Number(getComputedStyle(one).fontWeight) >= 600).map((one) => one.textContent),
+    );
+}
+
 page_test("no time is marked that is not resolved", {}, async (page) => {
   const methods = ["b2f", "f2b", { id: "b2f", label: "the same" }, { id: "f2bd", threshold: 0.5 }, "unsorted"];
   const scene = { type: "quads", count: 64, shading: "4-textures", texture: { size: 64 } };
@@ -120,6 +131,10 @@ page_test("no time is marked that is not resolved", {}, async (page) => {
       assert.equal(speedup.verdict, "faster", `${label} ${path} after ${rounds} rounds`);
       assert.ok(speedup.ci95[0] > 1);
     }
+    const named = await bold_names(page);
+    const of_table = times.filter(({ path }) => path === "timing.median").map(({ label }) => label);
+    assert.deepEqual(named.sort(), of_table.sort(), "the chart and the table name the same");
+    if (report.runs[0].frontier.fastest) assert.deepEqual(of_table, report.runs[0].frontier.fastest.toSorted());
     if (rounds < 8) {
       assert.deepEqual(times, [], "without intervals nothing is resolved");
       assert.match(await page.locator("table.timings").textContent(), /too few rounds/);
