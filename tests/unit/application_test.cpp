@@ -184,7 +184,7 @@ TEST_F(ApplicationTest, AFailedReportSaysWhy) {
     EXPECT_EQ(get("/api/v1/reports/" + job.id + "/report.html").status, 409);
     const Response junit = get("/api/v1/reports/" + job.id + "/junit.xml");
     EXPECT_EQ(junit.status, 200);
-    EXPECT_THAT(junit.body, testing::HasSubstr("errors=\"1\""));
+    EXPECT_THAT(std::get<std::string>(junit.body), testing::HasSubstr("errors=\"1\""));
 }
 
 TEST_F(ApplicationTest, DeletionDependsOnHowFarAReportIs) {
