@@ -16,18 +16,22 @@ Picture FileAssets::picture(const std::string& name, int width_px, int height_px
     return read_picture(read(name), width_px, height_px);
 }
 
-Volume FileAssets::volume(const std::string& name, const std::optional<RawVolume>& raw) {
-    return read_volume(read(name), raw);
+Volume FileAssets::volume(const std::string& name, const VolumeOptions& options) {
+    if (m_neighbours == Neighbours::refused) return read_volume(read(name), options);
+    return read_volume(read(name), options, neighbours_of(name));
 }
 
 Model FileAssets::model(const std::string& name) {
     if (m_neighbours == Neighbours::refused) return read_model(read(name), no_other_files);
-    const OtherFiles others = files_below(m_resolve(name).parent_path());
-    return read_model(read(name), [&](const std::string& other) {
+    return read_model(read(name), neighbours_of(name));
+}
+
+std::function<std::string(const std::string& other)> FileAssets::neighbours_of(const std::string& name) {
+    return [this, name, others = files_below(m_resolve(name).parent_path())](const std::string& other) {
         std::string bytes = others(other);
         remember((std::filesystem::path(name).parent_path() / other).lexically_normal().generic_string(), name, bytes);
         return bytes;
-    });
+    };
 }
 
 std::string FileAssets::read(const std::string& name) {

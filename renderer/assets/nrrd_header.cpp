@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
-#include <vector>
+#include <optional>
 
+#include "renderer/assets/file_bytes.h"
+#include "renderer/assets/nrrd_axes.h"
 #include "renderer/assets/read_volume.h"
+#include "renderer/assets/text_fields.h"
 
 namespace sheer {
 
@@ -24,53 +25,6 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(spaces) - begin + 1);
 }
 
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return result;
-}
-
-/// Words between any of `separators`.
-std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
-    std::vector<std::string_view> words;
-    std::size_t begin = text.find_first_not_of(separators);
-    while (begin != std::string_view::npos) {
-        const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-        words.push_back(text.substr(begin, end - begin));
-        begin = text.find_first_not_of(separators, end);
-    }
-    return words;
-}
-
-template <typename Number>
-Number number_in(std::string_view word, const std::string& field) {
-    Number number{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size())
-        throw AssetError(
-            fmt::format("the NRRD field \"{}\" holds \"{}\", which is not such a number", field, word.substr(0, 40)));
-    return number;
-}
-
-/// Throws AssetError if there are not three.
-std::vector<std::string_view> three(std::vector<std::string_view> entries, const std::string& field) {
-    if (entries.size() != 3)
-        throw AssetError(fmt::format("the NRRD field \"{}\" must have three entries, not {}", field, entries.size()));
-    return entries;
-}
-
-/// What stands in each pair of parentheses.
-std::vector<std::string_view> groups_in(std::string_view text) {
-    std::vector<std::string_view> groups;
-    while (true) {
-        const std::size_t open = text.find('('), close = text.find(')');
-        if (open == std::string_view::npos || close == std::string_view::npos || close < open) return groups;
-        groups.push_back(text.substr(open + 1, close - open - 1));
-        text.remove_prefix(close + 1);
-    }
-}
-
 /// Fields by their names in lower case without spaces, as some have been spelt both with and without.
 using Fields = std::map<std::string, std::string_view>;
 
@@ -81,26 +35,35 @@ class HeaderReader {
     NrrdHeader read() {
         next_line();
         for (std::string_view line = next_line(); !line.empty(); line = next_line()) add_field(line);
-        refuse_detached();
-        if (const auto dimension = number_in<int>(required("dimension"), "dimension"); dimension != 3)
-            throw AssetError(fmt::format("the NRRD file has {} dimensions; a volume has 3", dimension));
-        VoxelLayout layout;
+        read_place();
+        if (!m_ended && m_header.data_file.empty()) throw AssetError("the header of the NRRD file has no end");
+        m_header.data_begin = m_position;
+        read_dimension();
+        VoxelLayout& layout = m_header.layout;
         layout.type = type();
-        layout.gzip = gzip();
+        layout.encoding = encoding();
         layout.size = size();
         check_volume_size(layout.size, layout.type);
-        layout.big_endian = bytes_of(layout.type) > 1 && big_endian();
-        layout.spacing = spacing();
-        return {layout, m_position};
+        if (m_header.byte_skip < 0 && layout.encoding != VoxelEncoding::raw)
+            throw AssetError("the NRRD field \"byte skip\" is -1, which goes with the encoding raw alone");
+        layout.big_endian = kind_of(layout.type).bytes > 1 && layout.encoding != VoxelEncoding::text && big_endian();
+        place_nrrd_axes({field("space"), field("spacedirections"), field("spacings")}, layout, m_header.notes);
+        add_notes();
+        return m_header;
     }
 
   private:
+    /// "" at the blank line that ends a header, and at the end of a file that has none.
     std::string_view next_line() {
-        const std::size_t end = m_bytes.substr(0, max_header_bytes).find('\n', m_position);
-        if (end == std::string_view::npos) throw AssetError("the header of the NRRD file has no end");
-        std::string_view line = m_bytes.substr(m_position, end - m_position);
-        m_position = end + 1;
+        const std::string_view searched = m_bytes.substr(0, max_header_bytes);
+        const std::size_t found = searched.find('\n', m_position);
+        if (found == std::string_view::npos && searched.size() < m_bytes.size())
+            throw AssetError("the header of the NRRD file has no end");
+        const std::size_t end = std::min(found, m_bytes.size());
+        std::string_view line = m_bytes.substr(std::min(m_position, end), end - std::min(m_position, end));
+        m_position = std::min(end + 1, m_bytes.size());
         if (line.ends_with('\r')) line.remove_suffix(1);
+        m_ended = line.empty() && found != std::string_view::npos;
         return line;
     }
 
@@ -109,30 +72,57 @@ class HeaderReader {
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos)
             throw AssetError(
-                fmt::format("the header of the NRRD file has the line \"{}\", which is no field", line.substr(0, 40)));
+                fmt::format("the header of the NRRD file has the line \"{}\", which is no field", printable(line)));
         if (line.substr(colon).starts_with(":=")) return;
         std::string name = lower(line.substr(0, colon));
         std::erase(name, ' ');
         if (!m_fields.emplace(name, trimmed(line.substr(colon + 1))).second)
-            throw AssetError("the NRRD file has the field \"" + name + "\" twice");
+            throw AssetError("the NRRD file has the field \"" + printable(name) + "\" twice");
+    }
+
+    std::optional<std::string_view> field(const std::string& name) const {
+        const auto found = m_fields.find(name);
+        return found == m_fields.end() ? std::nullopt : std::optional(found->second);
     }
 
     std::string_view required(const std::string& name) const {
-        const auto found = m_fields.find(name);
-        if (found == m_fields.end()) throw AssetError("the NRRD file has no field \"" + name + "\"");
-        return found->second;
+        const auto found = field(name);
+        if (!found) throw AssetError("the NRRD file has no field \"" + name + "\"");
+        return *found;
     }
 
-    void refuse_detached() const {
-        if (m_fields.contains("datafile"))
-            throw AssetError("the NRRD file keeps its data in another file; upload one with the data attached");
-        for (const std::string name : {"lineskip", "byteskip"})
-            if (const auto found = m_fields.find(name); found != m_fields.end() && found->second != "0")
-                throw AssetError("the NRRD field \"" + name + "\" is taken only where it is 0");
+    /// Where the data is.
+    void read_place() {
+        if (const auto file = field("datafile")) {
+            if (file->empty() || *file == "LIST" || file->starts_with("LIST ") || file->find('%') != file->npos)
+                throw AssetError("the NRRD file keeps its data in several other files; one is read");
+            m_header.data_file = *file;
+        }
+        for (const auto& [name, least, skip] :
+             {std::tuple("lineskip", 0, &m_header.line_skip), std::tuple("byteskip", -1, &m_header.byte_skip)}) {
+            if (const auto text = field(name)) *skip = number_in<int>(*text, name);
+            if (*skip < least)
+                throw AssetError(fmt::format("the NRRD field \"{}\" must be at least {}, not {}", name, least, *skip));
+        }
+    }
+
+    void read_dimension() const {
+        if (const auto dimension = number_in<int>(required("dimension"), "dimension"); dimension != 3)
+            throw AssetError(fmt::format("the NRRD file has {} dimensions; a volume has 3", dimension));
+        if (!field("kinds")) return;
+        for (const std::string_view kind : three(split(*field("kinds"), spaces), "kinds"))
+            if (const std::string name = lower(kind); name != "domain" && name != "space" && name != "???")
+                throw AssetError(
+                    fmt::format("the NRRD file has an axis of the kind \"{}\"; a volume of numbers has "
+                                "three axes of space",
+                                printable(kind)));
     }
 
     VoxelType type() const {
-        static const std::map<std::string, VoxelType, std::less<>> types = {{"uchar", VoxelType::uint8},
+        static const std::map<std::string, VoxelType, std::less<>> types = {{"signed char", VoxelType::int8},
+                                                                            {"int8", VoxelType::int8},
+                                                                            {"int8_t", VoxelType::int8},
+                                                                            {"uchar", VoxelType::uint8},
                                                                             {"unsigned char", VoxelType::uint8},
                                                                             {"uint8", VoxelType::uint8},
                                                                             {"uint8_t", VoxelType::uint8},
@@ -147,29 +137,44 @@ class HeaderReader {
                                                                             {"unsigned short int", VoxelType::uint16},
                                                                             {"uint16", VoxelType::uint16},
                                                                             {"uint16_t", VoxelType::uint16},
-                                                                            {"float", VoxelType::float32}};
+                                                                            {"int", VoxelType::int32},
+                                                                            {"signed int", VoxelType::int32},
+                                                                            {"int32", VoxelType::int32},
+                                                                            {"int32_t", VoxelType::int32},
+                                                                            {"uint", VoxelType::uint32},
+                                                                            {"unsigned int", VoxelType::uint32},
+                                                                            {"uint32", VoxelType::uint32},
+                                                                            {"uint32_t", VoxelType::uint32},
+                                                                            {"float", VoxelType::float32},
+                                                                            {"double", VoxelType::float64}};
         const std::string_view name = required("type");
         const auto found = types.find(lower(name));
         if (found == types.end())
             throw AssetError(
-                fmt::format("the NRRD file has voxels of type \"{}\"; taken are uint8, int16, uint16 and float",
-                            name.substr(0, 40)));
+                fmt::format("the NRRD file has voxels of type \"{}\"; taken are whole numbers of 8 to 32 "
+                            "bits, float and double",
+                            printable(name)));
         return found->second;
     }
 
-    bool gzip() const {
-        const std::string encoding = lower(required("encoding"));
-        if (encoding == "gzip" || encoding == "gz") return true;
-        if (encoding == "raw") return false;
-        throw AssetError(
-            fmt::format("the NRRD file has the encoding \"{}\"; taken are raw and gzip", encoding.substr(0, 40)));
+    VoxelEncoding encoding() const {
+        static const std::map<std::string, VoxelEncoding, std::less<>> encodings = {
+            {"raw", VoxelEncoding::raw},    {"txt", VoxelEncoding::text},  {"text", VoxelEncoding::text},
+            {"ascii", VoxelEncoding::text}, {"hex", VoxelEncoding::hex},   {"gz", VoxelEncoding::gzip},
+            {"gzip", VoxelEncoding::gzip},  {"bz2", VoxelEncoding::bzip2}, {"bzip2", VoxelEncoding::bzip2}};
+        const std::string_view name = required("encoding");
+        const auto found = encodings.find(lower(name));
+        if (found == encodings.end())
+            throw AssetError(fmt::format(
+                "the NRRD file has the encoding \"{}\"; taken are raw, ascii, hex, gzip and bzip2", printable(name)));
+        return found->second;
     }
 
     bool big_endian() const {
         const std::string endian = lower(required("endian"));
         if (endian != "big" && endian != "little")
             throw AssetError(
-                fmt::format("the NRRD field \"endian\" is \"{}\", neither big nor little", endian.substr(0, 40)));
+                fmt::format("the NRRD field \"endian\" is \"{}\", neither big nor little", printable(endian)));
         return endian == "big";
     }
 
@@ -179,59 +184,27 @@ class HeaderReader {
                 number_in<int>(words[2], "sizes")};
     }
 
-    glm::dvec3 spacing() const {
-        glm::dvec3 spacing(1);
-        std::string field;
-        if (m_fields.contains("spacedirections")) {
-            field = "spacedirections";
-            const auto directions = three(groups_in(required(field)), field);
-            for (int axis = 0; axis < 3; ++axis)
-                spacing[axis] = length_of(directions[static_cast<std::size_t>(axis)], field);
-        } else if (m_fields.contains("spacings")) {
-            field = "spacings";
-            const auto words = three(split(required(field), spaces), field);
-            for (int axis = 0; axis < 3; ++axis)
-                spacing[axis] = std::abs(number_in<double>(words[static_cast<std::size_t>(axis)], field));
-        }
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(spacing[axis] >= 1e-9 && spacing[axis] <= 1e9))
-                throw AssetError("the NRRD field \"" + field + "\" gives distances between voxels that cannot be used");
-        return spacing;
-    }
-
-    static double length_of(std::string_view direction, const std::string& field) {
-        double squares = 0;
-        for (const std::string_view word : three(split(direction, ", \t"), field)) {
-            const auto component = number_in<double>(word, field);
-            squares += component * component;
-        }
-        return std::sqrt(squares);
+    void add_notes() {
+        if (const auto centerings = field("centerings");
+            centerings && lower(*centerings).find("node") != std::string::npos)
+            add_note(
+                m_header.notes,
+                {"node-centering-ignored",
+                 "The samples are said to lie at the corners of cells; they are drawn as the middles of voxels.", ""});
+        if ((field("axismins") || field("axismaxs")) && !field("spacedirections") && !field("spacings"))
+            add_note(m_header.notes,
+                     {"axis-ranges-ignored",
+                      "The fields \"axis mins\" and \"axis maxs\" are not read; the voxels are drawn as cubes.", ""});
     }
 
     std::string_view m_bytes;
     std::size_t m_position = 0;
+    bool m_ended = false;  ///< by a blank line
     Fields m_fields;
+    NrrdHeader m_header;
 };
 
 }  // namespace
-
-std::size_t bytes_of(VoxelType type) {
-    return type == VoxelType::uint8 ? 1 : type == VoxelType::float32 ? 4 : 2;
-}
-
-const char* name_of(VoxelType type) {
-    switch (type) {
-        case VoxelType::uint8:
-            return "uint8";
-        case VoxelType::int16:
-            return "int16";
-        case VoxelType::uint16:
-            return "uint16";
-        case VoxelType::float32:
-            return "float32";
-    }
-    return "";
-}
 
 bool is_nrrd(std::string_view bytes) {
     return bytes.starts_with(magic);

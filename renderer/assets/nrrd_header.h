@@ -1,32 +1,24 @@
 #pragma once
-#include <glm/glm.hpp>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "renderer/assets/voxel_layout.h"
+#include "renderer/notes.h"
 #include "renderer/scene/assets.h"
 
 namespace sheer {
-
-enum class VoxelType { uint8, int16, uint16, float32 };
-
-/// How voxels lie in bytes.
-struct VoxelLayout {
-    glm::ivec3 size{0};  ///< 1..max_volume_side each
-    glm::dvec3 spacing{1};
-    VoxelType type = VoxelType::uint8;
-    bool big_endian = false;
-    bool gzip = false;
-};
-
-std::size_t bytes_of(VoxelType type);
-/// "uint8", "int16", "uint16" or "float32".
-const char* name_of(VoxelType type);
 
 /// Whether a file begins as an NRRD file does.
 bool is_nrrd(std::string_view bytes);
 
 struct NrrdHeader {
     VoxelLayout layout;
-    std::size_t data_begin;  ///< byte
+    std::size_t data_begin = 0;  ///< byte, where the data is attached
+    std::string data_file;       ///< "" where the data is attached
+    int line_skip = 0;           ///< lines before the data
+    int byte_skip = 0;           ///< bytes before the voxels; -1: they are the last ones
+    std::vector<Note> notes;     ///< what of the header is read otherwise
 };
 /// Throws AssetError, see read_volume.
 NrrdHeader read_nrrd_header(std::string_view bytes);

@@ -1,153 +1,172 @@
 #include "renderer/assets/read_volume.h"
 
 #include <fmt/format.h>
-#define ZLIB_CONST  // input is const
-#include <zlib.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
+#include <limits>
+#include <utility>
 
 #include "renderer/assets/nrrd_header.h"
+#include "renderer/assets/text_fields.h"
+#include "renderer/assets/visit_voxels.h"
+#include "renderer/assets/voxel_bytes.h"
 
 namespace sheer {
 
 namespace {
 
-/// Inflates a gzip stream that must hold `size` bytes, neither more nor fewer, so that no more memory is ever taken.
-class Inflater {
-  public:
-    explicit Inflater(std::string_view bytes) : m_bytes(bytes) {
-        if (inflateInit2(&m_stream, gzip_window) != Z_OK) throw AssetError("the gzip data cannot be read");
-    }
-    ~Inflater() { inflateEnd(&m_stream); }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
+/// Values far outside of a range are held to this, which every later sum of them bears.
+constexpr double farthest = 1e6;
 
-    std::string inflated(std::size_t size) {
-        std::string result(size, '\0');
-        std::size_t done = 0;
-        int status = step(result.data(), size, done);
-        char beyond = 0;
-        std::size_t more = 0;
-        if (status == Z_OK && done == size) status = step(&beyond, 1, more);
-        if (status == Z_DATA_ERROR) throw AssetError("the gzip data is damaged");
-        if (more > 0 || m_stream.avail_in + m_bytes.size() > 0)
-            throw AssetError(fmt::format("the gzip data holds more than the {} bytes that the sizes say", size));
-        if (status != Z_STREAM_END) throw AssetError("the gzip data ends too early");
-        if (done < size)
-            throw AssetError(fmt::format("the gzip data holds {} bytes of voxels; the sizes say {}", done, size));
-        return result;
-    }
-
-  private:
-    static constexpr int gzip_window = 16 + MAX_WBITS;
-
-    /// Until `size` bytes are there, the stream has ended, or it cannot go on.
-    int step(char* out, std::size_t size, std::size_t& done) {
-        m_stream.next_out = reinterpret_cast<Bytef*>(out);
-        m_stream.avail_out = static_cast<uInt>(size);
-        int status = Z_OK;
-        while (status == Z_OK && m_stream.avail_out > 0) {
-            if (m_stream.avail_in == 0) {
-                const std::size_t part = std::min<std::size_t>(m_bytes.size(), 1 << 20);
-                m_stream.next_in = reinterpret_cast<const Bytef*>(m_bytes.data());
-                m_stream.avail_in = static_cast<uInt>(part);
-                m_bytes.remove_prefix(part);
-            }
-            status = inflate(&m_stream, Z_NO_FLUSH);
-        }
-        done = size - m_stream.avail_out;
-        return status;
-    }
-
-    std::string_view m_bytes;
-    z_stream m_stream{};
+/// Voxels in the order of the file.
+struct StoredVoxels {
+    VoxelLayout layout;
+    std::string bytes;
+    std::vector<Note> notes;
 };
 
-template <typename Number>
-std::vector<float> numbers_in(std::string_view bytes, bool big_endian) {
-    const bool swapped = big_endian != (std::endian::native == std::endian::big);
-    std::vector<float> numbers(bytes.size() / sizeof(Number));
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        char voxel[sizeof(Number)];
-        std::memcpy(voxel, bytes.data() + i * sizeof(Number), sizeof(Number));
-        if (swapped) std::reverse(std::begin(voxel), std::end(voxel));
-        Number number;
-        std::memcpy(&number, voxel, sizeof(Number));
-        numbers[i] = static_cast<float>(number);
-    }
-    return numbers;
+/// The least and the greatest. Throws AssetError for a number that is not finite.
+glm::dvec2 extent_of(const StoredVoxels& stored) {
+    return visit_voxel_type(stored.layout.type, [&]<typename Number>(Number) {
+        Number least = std::numeric_limits<Number>::max(), greatest = std::numeric_limits<Number>::lowest();
+        for (std::size_t at = 0; at < stored.bytes.size(); at += sizeof(Number)) {
+            const auto number = voxel_at<Number>(&stored.bytes[at], stored.layout.big_endian);
+            if constexpr (std::is_floating_point_v<Number>)
+                if (!std::isfinite(number))
+                    throw AssetError(fmt::format("voxel {} of the volume is not a finite number", at / sizeof(Number)));
+            least = std::min(least, number);
+            greatest = std::max(greatest, number);
+        }
+        return glm::dvec2(least, greatest);
+    });
 }
 
-/// The least becomes 0, the greatest 1.
-void stretch(std::vector<float>& numbers) {
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (!std::isfinite(numbers[i]))
-            throw AssetError(fmt::format("voxel {} of the volume is not a finite number", i));
-    const auto [least, greatest] = std::ranges::minmax(numbers);
-    const double span = double{greatest} - least;
-    for (float& number : numbers) number = span > 0 ? static_cast<float>((double{number} - least) / span) : 0.0f;
+/// Calls `put` with each voxel's place in the scene's order and its number.
+template <typename Number, typename Put>
+void for_each_voxel(const StoredVoxels& stored, const glm::ivec3& scene_size, const Put& put) {
+    const std::ptrdiff_t strides[3] = {1, scene_size.x, std::ptrdiff_t{scene_size.x} * scene_size.y};
+    std::ptrdiff_t steps[3], begin = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const VoxelAxis& lies = stored.layout.axes[static_cast<std::size_t>(axis)];
+        steps[axis] = strides[lies.scene_axis] * (lies.reversed ? -1 : 1);
+        if (lies.reversed) begin -= steps[axis] * (stored.layout.size[axis] - 1);
+    }
+    const char* at = stored.bytes.data();
+    for (int k = 0; k < stored.layout.size.z; ++k)
+        for (int j = 0; j < stored.layout.size.y; ++j)
+            for (int i = 0; i < stored.layout.size.x; ++i, at += sizeof(Number))
+                put(static_cast<std::size_t>(begin + i * steps[0] + j * steps[1] + k * steps[2]),
+                    voxel_at<Number>(at, stored.layout.big_endian));
 }
 
-Volume make_volume(const VoxelLayout& layout, std::string_view bytes) {
-    Volume volume{.size = layout.size, .spacing = layout.spacing};
-    switch (layout.type) {
-        case VoxelType::uint8:
-            volume.bytes.assign(bytes.begin(), bytes.end());
-            break;
-        case VoxelType::uint16:
-            volume.floats = numbers_in<std::uint16_t>(bytes, layout.big_endian);
-            for (float& number : volume.floats) number /= 65535;
-            break;
-        case VoxelType::int16:
-            volume.floats = numbers_in<std::int16_t>(bytes, layout.big_endian);
-            stretch(volume.floats);
-            break;
-        case VoxelType::float32:
-            volume.floats = numbers_in<float>(bytes, layout.big_endian);
-            stretch(volume.floats);
-            break;
+/// What the values of the file become, as a note.
+Note range_note(const glm::dvec2& extent, const std::optional<glm::dvec2>& range) {
+    if (range)
+        return {"value-range",
+                fmt::format("Values from {} to {} become 0 to 1, as the field range says; the file has {} to {}.",
+                            range->x, range->y, extent.x, extent.y),
+                ""};
+    if (extent.x == extent.y) return {"value-range", fmt::format("All voxels are {}; they become 0.", extent.x), ""};
+    return {
+        "value-range",
+        fmt::format("Values from {} to {}, the least and the greatest of the file, become 0 to 1.", extent.x, extent.y),
+        ""};
+}
+
+Volume make_volume(StoredVoxels stored, const std::optional<glm::dvec2>& wanted) {
+    const glm::dvec2 extent = extent_of(stored);
+    // Where all are equal any width does, as they are 0 then.
+    const glm::dvec2 range = wanted.value_or(
+        extent.x < extent.y ? extent : glm::dvec2(extent.x, extent.x + std::max(1.0, std::abs(extent.x))));
+    Volume volume;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int scene_axis = stored.layout.axes[axis].scene_axis;
+        volume.size[scene_axis] = stored.layout.size[static_cast<int>(axis)];
+        volume.spacing[scene_axis] = stored.layout.spacing[static_cast<int>(axis)];
     }
+    volume.notes = std::move(stored.notes);
+    add_note(volume.notes, range_note(extent, wanted));
+    if (stored.layout.type == VoxelType::uint8) {
+        volume.byte_range = range;
+        volume.bytes.resize(volume.voxel_count());
+        for_each_voxel<std::uint8_t>(stored, volume.size,
+                                     [&](std::size_t place, std::uint8_t byte) { volume.bytes[place] = byte; });
+        return volume;
+    }
+    volume.floats.resize(volume.voxel_count());
+    // Halves, since the span of doubles may be beyond them.
+    const double half_span = range.y / 2 - range.x / 2;
+    visit_voxel_type(stored.layout.type, [&]<typename Number>(Number) {
+        for_each_voxel<Number>(stored, volume.size, [&](std::size_t place, Number number) {
+            volume.floats[place] = static_cast<float>(
+                std::clamp((static_cast<double>(number) / 2 - range.x / 2) / half_span, -farthest, farthest));
+        });
+    });
     return volume;
 }
 
-Volume read_voxels(const VoxelLayout& layout, std::string_view bytes) {
-    const std::size_t size = Volume{.size = layout.size}.voxel_count() * bytes_of(layout.type);
-    if (layout.gzip) return make_volume(layout, Inflater(bytes).inflated(size));
-    if (bytes.size() != size)
-        throw AssetError(fmt::format("the file holds {} bytes of voxels; {} x {} x {} of type {} are {}", bytes.size(),
-                                     layout.size.x, layout.size.y, layout.size.z, name_of(layout.type), size));
-    return make_volume(layout, bytes);
-}
-
 VoxelLayout layout_of(const RawVolume& raw) {
-    VoxelLayout layout{.size = raw.size, .spacing = raw.spacing};
-    for (const VoxelType type : {VoxelType::uint8, VoxelType::uint16, VoxelType::float32})
-        if (raw.voxel == name_of(type)) layout.type = type;
+    VoxelLayout layout{.size = raw.size, .spacing = raw.spacing, .big_endian = raw.big_endian};
+    for (const VoxelKind& kind : voxel_kinds)
+        if (raw.voxel == kind.name) layout.type = kind.type;
     check_volume_size(layout.size, layout.type);
     return layout;
 }
 
+std::string_view without_lines(std::string_view data, int count) {
+    for (; count > 0; --count) {
+        const std::size_t end = data.find('\n');
+        if (end == std::string_view::npos) throw AssetError("the NRRD field \"line skip\" leaves no lines for voxels");
+        data.remove_prefix(end + 1);
+    }
+    return data;
+}
+
+/// Of a detached header. Throws AssetError.
+std::string data_file_of(const NrrdHeader& header, const DataFiles& data_files) {
+    constexpr std::string_view what = "the NRRD file keeps its data in another file";
+    if (!data_files)
+        throw AssetError(
+            fmt::format("{}, \"{}\"; upload one with the data attached", what, printable(header.data_file)));
+    try {
+        return data_files(header.data_file);
+    } catch (const AssetError& error) {
+        throw AssetError(fmt::format("{}: {}", what, error.what()));
+    }
+}
+
+StoredVoxels read_nrrd(std::string_view bytes, const DataFiles& data_files) {
+    NrrdHeader header = read_nrrd_header(bytes);
+    const std::string other = header.data_file.empty() ? "" : data_file_of(header, data_files);
+    const std::string_view data = header.data_file.empty() ? bytes.substr(header.data_begin) : other;
+    return {header.layout, voxel_bytes(header.layout, without_lines(data, header.line_skip), header.byte_skip),
+            std::move(header.notes)};
+}
+
 }  // namespace
 
-Volume read_volume(std::string_view bytes, const std::optional<RawVolume>& raw) {
-    if (raw) return read_voxels(layout_of(*raw), bytes);
+Volume read_volume(std::string_view bytes, const VolumeOptions& options, const DataFiles& data_files) {
+    if (options.raw) {
+        const VoxelLayout layout = layout_of(*options.raw);
+        return make_volume({layout, voxel_bytes(layout, bytes, 0), {}}, options.range);
+    }
     if (!is_nrrd(bytes))
         throw AssetError("the file is not an NRRD file; for another one \"raw\" must say what it holds");
-    const NrrdHeader header = read_nrrd_header(bytes);
-    return read_voxels(header.layout, bytes.substr(header.data_begin));
+    return make_volume(read_nrrd(bytes, data_files), options.range);
 }
 
 nlohmann::json describe_nrrd(std::string_view bytes) {
-    const VoxelLayout layout = read_nrrd_header(bytes).layout;
-    const Volume volume = read_volume(bytes, std::nullopt);
+    const StoredVoxels stored = read_nrrd(bytes, {});
+    const VoxelLayout& layout = stored.layout;
+    const glm::dvec2 extent = extent_of(stored);
+    constexpr const char* encodings[] = {"raw", "ascii", "hex", "gzip", "bzip2"};
     return {{"size", {layout.size.x, layout.size.y, layout.size.z}},
             {"spacing", {layout.spacing.x, layout.spacing.y, layout.spacing.z}},
-            {"voxel", name_of(layout.type)},
-            {"encoding", layout.gzip ? "gzip" : "raw"},
-            {"notes", to_json(volume.notes)}};
+            {"voxel", kind_of(layout.type).name},
+            {"encoding", encodings[static_cast<std::size_t>(layout.encoding)]},
+            {"range", {extent.x, extent.y}},
+            {"notes", to_json(stored.notes)}};
 }
 
 }  // namespace sheer

@@ -11,11 +11,18 @@
 
 namespace sheer {
 
-/// What a file of voxels without a header holds, little-endian.
+/// What a file of voxels without a header holds.
 struct RawVolume {
     glm::ivec3 size;
     glm::dvec3 spacing{1};
-    std::string voxel;  ///< uint8, uint16 or float32
+    std::string voxel;  ///< int8, uint8, int16, uint16, int32, uint32, float32 or float64
+    bool big_endian = false;
+};
+
+/// What a spec says of a volume's file.
+struct VolumeOptions {
+    std::optional<RawVolume> raw;     ///< none: the file says it itself
+    std::optional<glm::dvec2> range;  ///< the values that become 0 and 1, x < y; none: the least and the greatest
 };
 
 /// A file that was read, by what it held.
@@ -42,8 +49,8 @@ class AssetReader {
     virtual ~AssetReader() = default;
     /// Scaled to width x height by area-averaging or cubic interpolation, whatever its own shape.
     virtual Picture picture(const std::string& name, int width_px, int height_px) = 0;
-    /// NRRD, unless `raw` says what the file holds.
-    virtual Volume volume(const std::string& name, const std::optional<RawVolume>& raw) = 0;
+    /// NRRD, unless the options say what the file holds.
+    virtual Volume volume(const std::string& name, const VolumeOptions& options) = 0;
     /// A glTF 2.0 file.
     virtual Model model(const std::string& name) = 0;
     /// Every file that was read so far, those beside a model among them, as it was when it was read last.
@@ -54,7 +61,7 @@ class AssetReader {
 class NoAssets : public AssetReader {
   public:
     Picture picture(const std::string& name, int, int) override { refuse(name); }
-    Volume volume(const std::string& name, const std::optional<RawVolume>&) override { refuse(name); }
+    Volume volume(const std::string& name, const VolumeOptions&) override { refuse(name); }
     Model model(const std::string& name) override { refuse(name); }
 
   private:

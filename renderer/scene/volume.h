@@ -7,13 +7,14 @@
 
 namespace sheer {
 
-/// Scalars of 0..1 on a grid, x fastest, then y, then z.
+/// Scalars on a grid, x fastest, then y, then z.
 struct Volume {
     glm::ivec3 size{0};               ///< voxels along each axis
     glm::dvec3 spacing{1};            ///< from voxel to voxel; only their ratios matter
-    std::vector<std::uint8_t> bytes;  ///< 255 for 1; empty where `floats` holds the voxels
-    std::vector<float> floats;
-    std::vector<Note> notes;  ///< what of the file was not read, or read otherwise
+    std::vector<std::uint8_t> bytes;  ///< empty where `floats` holds the voxels
+    std::vector<float> floats;        ///< worth what they are: 0..1, and beyond where a range leaves them out
+    glm::dvec2 byte_range{0, 255};    ///< the bytes that are worth 0 and 1; they differ
+    std::vector<Note> notes;          ///< what of the file was not read, or read otherwise
 
     std::size_t voxel_count() const {
         return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);

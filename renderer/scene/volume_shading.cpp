@@ -39,6 +39,7 @@ double opacity_of(double alpha, double length) {
 VolumeTextures::VolumeTextures(const gl::Functions& gl, const VolumeShading& shading)
     : m_volume(make_texture_3d(gl, shading.volume)),
       m_to_texture(shading.to_texture),
+      m_value(shading.value),
       m_light(shading.light),
       m_to_sun(shading.to_sun) {
     const auto width = static_cast<int>(shading.transfer.size());
@@ -52,6 +53,7 @@ void VolumeTextures::bind(const gl::Functions& gl, const gl::Program& program) c
     gl.BindTextureUnit(volume_unit, m_volume.id());
     gl.BindTextureUnit(transfer_unit, m_transfer.id());
     program.set("u_to_texture", m_to_texture);
+    program.set("u_value", m_value);
     program.set("u_light", m_light ? 1 : 0);
     program.set("u_to_sun", m_to_sun);
 }

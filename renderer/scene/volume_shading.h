@@ -11,6 +11,7 @@ namespace sheer {
 struct VolumeShading {
     Volume volume;
     glm::mat4 to_texture{1};  ///< from the scene's space, in which the camera is at the origin: 0..1 over the box
+    glm::vec2 value{1, 0};    ///< a value is what the texture gives times x, plus y
     std::vector<glm::vec4> transfer;  ///< straight colour and alpha of a slice for the values 0..1, evenly spread
     bool light = true;
     glm::vec3 to_sun{0, 0, 1};  ///< of length 1, in the scene's space
@@ -32,6 +33,7 @@ class VolumeTextures {
   private:
     gl::Texture m_volume, m_transfer;
     glm::mat4 m_to_texture{1};
+    glm::vec2 m_value{1, 0};
     bool m_light = false;
     glm::vec3 m_to_sun{0};
 };

@@ -6,13 +6,14 @@ layout(binding = 1) uniform sampler3D u_volume;
 layout(binding = 2) uniform sampler2D u_transfer;  // straight colour and alpha by value, one row
 
 uniform mat4 u_to_texture;
+uniform vec2 u_value;   // a value is what the texture gives times x, plus y
 uniform int u_light;    // 1: lit by the gradient, 0: the colour alone
 uniform vec3 u_to_sun;  // of length 1
 
 void begin_fragment() {}
 
 float value_at(vec3 at) {
-    return textureLod(u_volume, at, 0.0).r;
+    return textureLod(u_volume, at, 0.0).r * u_value.x + u_value.y;
 }
 
 // Lit from both sides, as what lies to either side of a boundary may be the clear one. Where values hardly differ there

@@ -144,7 +144,7 @@ class OwnAssets : public NoAssets {
         }
         return model;
     }
-    Volume volume(const std::string&, const std::optional<RawVolume>&) override {
+    Volume volume(const std::string&, const VolumeOptions&) override {
         std::vector<std::uint8_t> bytes(64);
         for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 37);
         return {.size = {4, 4, 4}, .spacing = glm::dvec3(0.25), .bytes = std::move(bytes), .floats = {}};

@@ -14,7 +14,7 @@ class OneModel : public AssetReader {
   public:
     explicit OneModel(Model model) : m_model(std::move(model)) {}
     Picture picture(const std::string&, int, int) override { throw AssetError("no pictures here"); }
-    Volume volume(const std::string&, const std::optional<RawVolume>&) override { throw AssetError("no volumes here"); }
+    Volume volume(const std::string&, const VolumeOptions&) override { throw AssetError("no volumes here"); }
     Model model(const std::string&) override { return m_model; }
 
   private:

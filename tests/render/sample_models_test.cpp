@@ -14,7 +14,7 @@ class ModelBytes : public AssetReader {
   public:
     explicit ModelBytes(std::string bytes) : m_bytes(std::move(bytes)) {}
     Picture picture(const std::string&, int, int) override { throw AssetError("no pictures here"); }
-    Volume volume(const std::string&, const std::optional<RawVolume>&) override { throw AssetError("no volumes here"); }
+    Volume volume(const std::string&, const VolumeOptions&) override { throw AssetError("no volumes here"); }
     Model model(const std::string&) override { return read_model(m_bytes, no_other_files); }
 
   private:

@@ -14,7 +14,7 @@ const std::array<double, 3> background{0.2, 0.4, 0.6};
 class HandVolume : public NoAssets {
   public:
     explicit HandVolume(Volume volume) : m_volume(std::move(volume)) {}
-    Volume volume(const std::string&, const std::optional<RawVolume>&) override { return m_volume; }
+    Volume volume(const std::string&, const VolumeOptions&) override { return m_volume; }
 
   private:
     Volume m_volume;

@@ -30,18 +30,24 @@ test("the same voxels give the same picture, however they are packed", async () 
       [nrrd("gzip", gzipSync(VOXELS)), "application/x-nrrd", undefined],
       [VOXELS, "application/octet-stream", { size: [4, 3, 2] }],
       [VOXELS, "application/octet-stream", { size: [3, 4, 2] }],
+      [nrrd("hex", Buffer.from(VOXELS.toString("hex"))), "application/x-nrrd", undefined],
     ]) {
       const { response, asset } = await upload(service, bytes, type);
       assert.ok(response.status === 201 || response.status === 200, JSON.stringify(asset));
       assert.equal(asset.type, "volume");
-      if (type === "application/x-nrrd") assert.deepEqual(asset.size, [4, 3, 2]);
+      if (type === "application/x-nrrd") {
+        assert.deepEqual(asset.size, [4, 3, 2]);
+        assert.deepEqual(asset.range, [0, 253]);
+      }
       const report = await service.settled(await service.submit(spec_of({ data: asset.sha256, ...(raw && { raw }) })));
       assert.equal(report.status, "done", JSON.stringify(report.error));
+      assert.deepEqual(report.runs[0].notes.map(({ code }) => code), ["value-range"]);
       pictures.push(report.runs[0].results[0].images.color.sha256);
     }
     assert.equal(pictures[1], pictures[0]);
     assert.equal(pictures[2], pictures[0]);
     assert.notEqual(pictures[3], pictures[0]);
+    assert.equal(pictures[4], pictures[0]);
   });
 });
 
@@ -63,7 +69,8 @@ test("a file that is no volume is refused at once", async () => {
       [Buffer.from("P6 1 1 255 abc"), /not an NRRD file/],
       [nrrd("raw", VOXELS.subarray(1)), /holds 23 bytes of voxels/],
       [nrrd("gzip", Buffer.from("no gzip")), /damaged/],
-      [nrrd("hex", VOXELS), /taken are raw and gzip/],
+      [nrrd("zrl", VOXELS), /encoding "zrl"; taken are raw, ascii, hex, gzip and bzip2/],
+      [nrrd("raw\ndata file: voxels.raw", Buffer.alloc(0)), /keeps its data in another file, "voxels.raw"/],
     ]) {
       const { response } = await upload(service, bytes, "application/x-nrrd");
       const problem = await assert_problem(response, 422);

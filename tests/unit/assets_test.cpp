@@ -279,5 +279,31 @@ TEST_F(AssetFiles, AreKnownByTheirHashesOnceTheyAreRead) {
     EXPECT_NE(assets.files()[2].sha256, expected[2].sha256);
 }
 
+TEST_F(AssetFiles, OfADetachedVolumeAreInItsFolder) {
+    std::filesystem::create_directory(m_folder.path() / "scan");
+    const auto header = [&](const std::string& data_file) {
+        m_folder.file(
+            "scan/head.nhdr",
+            "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 2 1\nencoding: raw\ndata file: " + data_file + "\n");
+    };
+    m_folder.file("scan/head.raw", "xy");
+    m_folder.file("other.raw", "xy");
+    FileAssets assets = assets_in_folder(m_folder.path());
+    header("head.raw");
+    EXPECT_EQ(assets.volume("scan/head.nhdr", {}).bytes, (std::vector<std::uint8_t>{'x', 'y'}));
+    ASSERT_EQ(assets.files().size(), 2u);
+    EXPECT_EQ(assets.files()[0].name, "scan/head.nhdr");
+    EXPECT_EQ(assets.files()[1].name, "scan/head.raw");
+    EXPECT_EQ(assets.files()[1].of, "scan/head.nhdr");
+    header("../other.raw");
+    EXPECT_THAT(refusal([&] { assets.volume("scan/head.nhdr", {}); }), HasSubstr("not in its folder"));
+    header("none.raw");
+    EXPECT_THAT(refusal([&] { assets.volume("scan/head.nhdr", {}); }),
+                testing::AllOf(HasSubstr("keeps its data in another file"), HasSubstr("none.raw")));
+    FileAssets uploads([&](const std::string& name) { return m_folder.path() / name; });
+    header("head.raw");
+    EXPECT_THAT(refusal([&] { uploads.volume("scan/head.nhdr", {}); }), HasSubstr("upload one with the data attached"));
+}
+
 }  // namespace
 }  // namespace sheer::assets_test

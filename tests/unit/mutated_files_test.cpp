@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "renderer/assets/picture_file.h"
+#include "renderer/assets/read_volume.h"
 #include "renderer/scene/random.h"
 #include "tests/unit/asset_pictures.h"
 #include "tests/unit/png_writer.h"
@@ -55,6 +56,25 @@ void mend_checksums(std::string& png) {
         png.replace(at, chunk.size(), chunk);
         at += chunk.size();
     }
+}
+
+std::string noise_text(std::size_t count) {
+    const std::vector<std::uint8_t> values = noise(count);
+    return {values.begin(), values.end()};
+}
+
+std::string gzipped(const std::string& bytes) {
+    std::string packed(bytes.size() + 64, '\0');
+    z_stream stream{};
+    deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    packed.resize(stream.total_out);
+    deflateEnd(&stream);
+    return packed;
 }
 
 template <typename Value>
@@ -115,6 +135,40 @@ TEST(MutatedPictures, AreRefusedOrRead) {
     }
     EXPECT_GT(refused, 250);
     EXPECT_GT(read, 25);
+}
+
+TEST(MutatedVolumes, AreRefusedOrRead) {
+    const auto nrrd = [](const std::string& fields, const std::string& data) {
+        return "NRRD0005\ndimension: 3\nsizes: 3 4 2\n" + fields + "\n" + data;
+    };
+    std::string text, bytes = noise_text(48);
+    for (int i = 0; i < 24; ++i) text += std::to_string(i * 7 - 50) + " ";
+    const std::string wholes[] = {
+        nrrd("type: int16\nencoding: ascii\nspacings: 1 -2 0.5\n", text),
+        nrrd("type: ushort\nencoding: raw\nendian: little\nspace: LPS\nspace directions: (-1,0,0) (0,0,2) (0,1,0)\n",
+             bytes),
+        nrrd("type: uint16\nencoding: gzip\nendian: big\nbyte skip: 2\n", gzipped("ab" + bytes)),
+        nrrd("type: float\nencoding: hex\nendian: little\nkinds: domain domain domain\n", [] {
+            std::string digits;
+            for (int i = 0; i < 24; ++i) digits += "0000803f ";
+            return digits;
+        }())};
+    Random random(11);
+    int refused = 0, read = 0;
+    for (int i = 0; i < 100; ++i) {
+        try {
+            const std::string& whole = wholes[random.below(std::size(wholes))];
+            const Volume volume = read_volume(mutated(whole, random), {});
+            EXPECT_EQ(volume.floats.size() + volume.bytes.size(), volume.voxel_count());
+            for (const float value : volume.floats) EXPECT_TRUE(value >= 0 && value <= 1) << value;
+            ++read;
+        } catch (const AssetError& error) {
+            for (const char* c = error.what(); *c != '\0'; ++c) EXPECT_TRUE(*c >= ' ' && *c <= '~') << error.what();
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 25);
+    EXPECT_GT(read, 5);
 }
 
 }  // namespace

@@ -16,11 +16,11 @@ using testing::HasSubstr;
 class HandVolume : public NoAssets {
   public:
     explicit HandVolume(Volume volume) : m_volume(std::move(volume)) {}
-    Volume volume(const std::string&, const std::optional<RawVolume>& raw) override {
-        m_raw = raw;
+    Volume volume(const std::string&, const VolumeOptions& options) override {
+        m_options = options;
         return m_volume;
     }
-    std::optional<RawVolume> m_raw;
+    VolumeOptions m_options;
 
   private:
     Volume m_volume;
@@ -198,6 +198,9 @@ TEST(VolumeSpec, WrongFieldsAreNamed) {
         {{{"volume", {{"data", "x"}, {"raw", {{"size", {2, 2, 1025}}}}}}}, "/scene/volume/raw/size/2", "1 to 1024"},
         {{{"volume", {{"data", "x"}, {"raw", {{"voxel", "uint8"}}}}}}, "/scene/volume/raw/size", "is missing"},
         {{{"volume", {{"raw", {{"size", {2, 2, 2}}}}}}}, "/scene/volume/raw", "no use to the built-in head"},
+        {{{"volume", {{"range", {0, 1}}}}}, "/scene/volume/range", "no use to the built-in head"},
+        {{{"volume", {{"data", "x"}, {"range", {7, 7}}}}}, "/scene/volume/range/1", "must be over the first"},
+        {{{"volume", {{"data", "x"}, {"range", {1}}}}}, "/scene/volume/range", "array of 2 numbers"},
         {{{"camera", {{"eye", {1, 1, 1}}, {"target", {1, 1, 1}}}}}, "/scene/camera/target", "must differ from eye"}};
     for (const WrongSpec& row : rows) {
         try {
@@ -215,10 +218,29 @@ TEST(VolumeSpec, RawLayoutGoesToTheReader) {
     auto assets = hand_volume();
     build({{"volume", {{"data", "x"}, {"raw", {{"size", {2, 3, 4}}, {"voxel", "uint16"}, {"spacing", {1, 2, 0.5}}}}}}},
           assets);
-    ASSERT_TRUE(assets.m_raw);
-    EXPECT_EQ(assets.m_raw->size, glm::ivec3(2, 3, 4));
-    EXPECT_EQ(assets.m_raw->spacing, glm::dvec3(1, 2, 0.5));
-    EXPECT_EQ(assets.m_raw->voxel, "uint16");
+    ASSERT_TRUE(assets.m_options.raw);
+    EXPECT_EQ(assets.m_options.raw->size, glm::ivec3(2, 3, 4));
+    EXPECT_EQ(assets.m_options.raw->spacing, glm::dvec3(1, 2, 0.5));
+    EXPECT_EQ(assets.m_options.raw->voxel, "uint16");
+    EXPECT_FALSE(assets.m_options.raw->big_endian);
+    EXPECT_FALSE(assets.m_options.range);
+}
+
+TEST(VolumeSpec, RangeGoesToTheReader) {
+    auto assets = hand_volume();
+    build({{"volume", {{"data", "x"}, {"range", {-1000, 2000.5}}}}}, assets);
+    EXPECT_FALSE(assets.m_options.raw);
+    EXPECT_EQ(assets.m_options.range, glm::dvec2(-1000, 2000.5));
+}
+
+/// Bytes 50 and 250 are worth 0 and 1; the texture gives 0..1 for 0..255.
+TEST(VolumeSpec, BytesAreWorthWhatTheirRangeSays) {
+    HandVolume assets({.size = {1, 1, 1}, .bytes = {128}, .floats = {}, .byte_range = {50, 250}});
+    const glm::vec2 value = build(json::object(), assets).volume->value;
+    EXPECT_NEAR(50.0 / 255 * value.x + value.y, 0, 1e-6);
+    EXPECT_NEAR(250.0 / 255 * value.x + value.y, 1, 1e-6);
+    auto usual = hand_volume();
+    EXPECT_EQ(build(json::object(), usual).volume->value, glm::vec2(1, 0));
 }
 
 TEST(VolumeSpec, AFileThatIsNotThereIsNamed) {

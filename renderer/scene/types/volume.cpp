@@ -4,6 +4,7 @@
 // slice have the same z to the last bit.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "renderer/scene/camera.h"
 #include "renderer/scene/scene_info.h"
@@ -134,16 +135,31 @@ std::vector<glm::vec4> bake(const json& points, double length) {
     return baked;
 }
 
+VolumeOptions options_of(const json& volume) {
+    VolumeOptions options;
+    if (const json& range = volume.at("range"); !range.is_null()) options.range = glm::dvec2(range[0], range[1]);
+    const json& raw = volume.at("raw");
+    if (raw.is_null()) return options;
+    const auto sides = raw.at("size").get<std::array<double, 3>>();
+    const auto spacing = raw.at("spacing").get<std::array<double, 3>>();
+    options.raw = RawVolume{glm::ivec3(sides[0], sides[1], sides[2]),
+                            {spacing[0], spacing[1], spacing[2]},
+                            raw.at("voxel").get<std::string>(),
+                            raw.at("endian") == "big"};
+    return options;
+}
+
 Volume read_volume(const json& volume, AssetReader& assets) {
     const auto data = volume.at("data").get<std::string>();
     if (data == "head") return make_head(volume.at("resolution").get<int>());
-    const json& raw = volume.at("raw");
-    if (raw.is_null()) return assets.volume(data, std::nullopt);
-    const auto sides = raw.at("size").get<std::array<double, 3>>();
-    const auto spacing = raw.at("spacing").get<std::array<double, 3>>();
-    return assets.volume(data, RawVolume{glm::ivec3(sides[0], sides[1], sides[2]),
-                                         {spacing[0], spacing[1], spacing[2]},
-                                         raw.at("voxel").get<std::string>()});
+    return assets.volume(data, options_of(volume));
+}
+
+/// What makes values of what a texture of 0..1 gives.
+glm::vec2 value_of_texture(const Volume& volume) {
+    if (volume.bytes.empty()) return {1, 0};
+    const double span = volume.byte_range.y - volume.byte_range.x;
+    return glm::vec2(255 / span, volume.byte_range.x == 0 ? 0 : -volume.byte_range.x / span);
 }
 
 Geometry build_volume(const json& scene, const ImageSpec& image, AssetReader& assets) {
@@ -170,9 +186,11 @@ Geometry build_volume(const json& scene, const ImageSpec& image, AssetReader& as
         to_texture[axis][axis] = 0.5 / box.half_sides[axis];
         to_texture[3][axis] = 0.5 - box_middle[axis] * to_texture[axis][axis];
     }
+    const glm::vec2 value = value_of_texture(volume);
     geometry.volume = VolumeShading{
         .volume = std::move(volume),
         .to_texture = glm::mat4(to_texture * glm::inverse(view)),
+        .value = value,
         .transfer = bake(scene.at("transfer"), density * distance / reference_length),
         .light = scene.at("light").get<bool>(),
         .to_sun = glm::vec3(glm::normalize(dvec3(view * glm::dvec4(-0.5, 0.8, 0.55, 0)))),
@@ -190,9 +208,12 @@ void check(const json& scene, const std::string& pointer, std::vector<FieldError
             errors.push_back(
                 {pointer + "/transfer/" + std::to_string(i) + "/value", "must be over that of the point before"});
     }
-    const json &volume = scene.at("volume"), &raw = volume.at("raw");
-    if (raw.is_null()) return;
-    if (volume.at("data") == "head") errors.push_back({pointer + "/volume/raw", "is of no use to the built-in head"});
+    const json &volume = scene.at("volume"), &range = volume.at("range");
+    for (const std::string name : {"raw", "range"})
+        if (volume.at("data") == "head" && !volume.at(name).is_null())
+            errors.push_back({pointer + "/volume/" + name, "is of no use to the built-in head"});
+    if (range.is_array() && range[1] <= range[0])
+        errors.push_back({pointer + "/volume/range/1", "must be over the first"});
 }
 
 /// Translucent skin, a pink brain, clear flesh and an opaque skull: the materials of the built-in head.
@@ -212,16 +233,21 @@ std::vector<Param> volume_parameters() {
     Param size = Param::numbers("size", "voxels along x, y and z; x is the fastest", "", {64, 64, 64}, 1, largest_side)
                      .required();
     size.whole = true;
-    Param raw = Param::object(
-        "raw", "what a file without a header holds; leave it out for NRRD",
-        {std::move(size),
-         Param::choice(
-             "voxel",
-             "little-endian; integers are divided by their greatest value, floats go from 0 for the least to 1 "
-             "for the greatest there is",
-             "uint8", {"uint8", "uint16", "float32"}),
-         Param::numbers("spacing", "from voxel to voxel along x, y and z", "", {1, 1, 1}, 1e-6, 1e6)});
+    Param raw =
+        Param::object("raw", "what a file without a header holds; leave it out for NRRD",
+                      {std::move(size),
+                       Param::choice("voxel", "type of the voxels", "uint8",
+                                     {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"}),
+                       Param::choice("endian", "which byte of a voxel comes first: the least or the greatest", "little",
+                                     {"little", "big"}),
+                       Param::numbers("spacing", "from voxel to voxel along x, y and z", "", {1, 1, 1}, 1e-6, 1e6)});
     raw.optional = true;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Param range = Param::numbers(
+        "range", "values of the file that become 0 and 1; left out, the least and the greatest that it has", "", {0, 1},
+        -infinity, infinity);
+    range.optional = true;
+    range.default_value = nullptr;
     Param transfer = Param::list(
         "transfer", "colour and opacity by value, linear between the points",
         {Param::number("value", "of the volume", "", 0, 0, 1).required(),
@@ -233,7 +259,8 @@ std::vector<Param> volume_parameters() {
     return {
         Param::object("volume", "the scalars",
                       {Param::asset("data", "the head, or an NRRD or raw file", "volume", "head", {"head"}),
-                       Param::integer("resolution", "of the head: voxels a side", "", 128, 32, 512), std::move(raw)}),
+                       Param::integer("resolution", "of the head: voxels a side", "", 128, 32, 512), std::move(range),
+                       std::move(raw)}),
         Param::integer("slices", "how many, from the nearest to the farthest corner of the volume", "", 256, 1, 2048),
         std::move(transfer),
         Param::number("density", "of the whole volume; 2 is as opaque as going through it twice", "", 1, 0.001, 1000),
