@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "renderer/scene/random.h"
@@ -290,6 +291,48 @@ TEST(Particles, FaceTheCamera) {
             EXPECT_EQ(clip_z(geometry.indices[primitive.first_index]),
                       clip_z(geometry.indices[primitive.first_index + i]));
     }
+}
+
+/// Half the diagonal of a sprite, and its alpha, of the transparent primitives in turn.
+std::vector<std::pair<float, float>> sprites_of(const json& fields) {
+    json scene = {{"type", "particles"}};
+    scene.update(fields);
+    const Geometry geometry = build_scene(scene);
+    std::vector<std::pair<float, float>> sprites;
+    for (const Primitive& primitive : geometry.primitives) {
+        if (primitive.opaque) continue;
+        const auto vertex = [&](std::uint32_t i) {
+            return geometry.vertices[geometry.indices[primitive.first_index + i]];
+        };
+        sprites.emplace_back(glm::length(vertex(0).position - vertex(2).position) / 2, vertex(0).tint.a);
+    }
+    return sprites;
+}
+
+/// With one seed the first sprites are the same ones, however many there are.
+TEST(Particles, AreAsLargeAndOpaqueWhateverTheirCountWhereThatIsAsked) {
+    const auto few = sprites_of({{"count", 50}, {"fit_count", false}}), usual = sprites_of({{"count", 2000}}),
+               many = sprites_of({{"count", 4000}, {"fit_count", false}}), fitted = sprites_of({{"count", 32000}});
+    for (std::size_t i = 0; i < few.size(); ++i) {
+        EXPECT_FLOAT_EQ(few[i].first, usual[i].first);
+        EXPECT_FLOAT_EQ(few[i].second, usual[i].second);
+        EXPECT_FLOAT_EQ(many[i].first, usual[i].first);
+        // Sixteen times as many have half the alpha and 2^-1.5 of the size.
+        EXPECT_NEAR(fitted[i].second, usual[i].second / 2, 1e-6);
+        EXPECT_NEAR(fitted[i].first, usual[i].first / std::pow(2, 1.5), 1e-6);
+    }
+}
+
+TEST(Particles, HaveAnOpacity) {
+    const auto usual = sprites_of({{"count", 20}}), half = sprites_of({{"count", 20}, {"opacity", 0.5}}),
+               none = sprites_of({{"count", 20}, {"opacity", 0}});
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+        EXPECT_FLOAT_EQ(half[i].second, usual[i].second / 2);
+        EXPECT_EQ(none[i].second, 0);
+        EXPECT_EQ(half[i].first, usual[i].first);
+    }
+    EXPECT_THROW(sprites_of({{"opacity", 1.01}}), SpecError);
+    EXPECT_THROW(sprites_of({{"opacity", -0.01}}), SpecError);
 }
 
 TEST(Particles, AreAMillionAtMost) {

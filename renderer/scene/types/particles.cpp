@@ -178,12 +178,13 @@ Geometry build_particles(const nlohmann::json& scene, const ImageSpec& image, As
     geometry.indices.reserve(geometry.indices.size() + 6 * count);
     geometry.primitives.reserve(geometry.primitives.size() + count);
     const Plume plume(fire, random);
-    const Grain grain = grain_of(static_cast<double>(count));
+    const Grain grain = grain_of(scene.at("fit_count").get<bool>() ? static_cast<double>(count) : usual_count);
+    const auto opacity = scene.at("opacity").get<double>();
     const double size = scene.at("size").get<double>() * grain.size * 1.4142135623730951;
     for (std::size_t i = 0; i < count; ++i) {
         Sprite sprite = plume.sprite(random);
         sprite.radius *= size;
-        sprite.tint.a *= static_cast<float>(grain.alpha);
+        sprite.tint.a *= static_cast<float>(grain.alpha * opacity);
         add_sprite(geometry, sprite, view, random);
     }
     look_from_camera_space(geometry, camera, aspect);
@@ -201,8 +202,13 @@ SceneInfo scene_particles() {
         .source = "Sheer",
         .parameters = {Param::choice("appearance", "fire that turns to smoke, in the night; or smoke by day", "fire",
                                      {"fire", "smoke"}),
-                       Param::integer("count", "how many sprites; more of them are smaller", "", 2000, 1, 1000000),
-                       Param::number("size", "of the sprites, times what suits their count", "", 1, 0.1, 4),
+                       Param::integer("count", "how many sprites", "", 2000, 1, 1000000),
+                       Param::boolean("fit_count",
+                                      "whether more sprites are smaller and fainter, so that the plume looks the same; "
+                                      "else each is as large and as opaque as one of 2000",
+                                      true),
+                       Param::number("size", "of the sprites, times what is usual", "", 1, 0.1, 4),
+                       Param::number("opacity", "of the sprites, times what is usual", "", 1, 0, 1),
                        Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0), camera_parameter()},
         .default_shading = "1-texture",
         .default_texture = "smoke",
