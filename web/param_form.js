@@ -149,8 +149,40 @@ function choice_field(param, path, model) {
 }
 
 function asset_field(param, path, model) {
+  if (param.max_length) return several_assets_field(param, path, model);
   const control = asset_control(param, model.get(path) ?? param.default, (value) => store(model, path, param, value));
   return field_frame(param, path, control.element, { for_id: control.id });
+}
+
+/** One file for all, or with a tick one for each. */
+function several_assets_field(param, path, model) {
+  const stored = () => model.get(path) ?? param.default;
+  const id = unique_id("field");
+  const box = el("input", {
+    type: "checkbox",
+    id,
+    checked: Array.isArray(stored()),
+    onchange: () => {
+      const value = stored();
+      store(model, path, param, box.checked ? Array(param.max_length).fill(value) : value[0]);
+      draw();
+    },
+  });
+  const controls = el("div");
+  const draw = () =>
+    set_children(
+      controls,
+      box.checked
+        ? stored().map((one, index) => {
+            const choose = (value) => store(model, path, param, stored().map((other, at) => (at === index ? value : other)));
+            const { element, id: for_id } = asset_control(param, one, choose);
+            return [el("label", { for: for_id }, `Number ${index + 1}`), element];
+          })
+        : asset_control(param, stored(), (value) => store(model, path, param, value)).element,
+    );
+  draw();
+  const line = el("div", { class: "ticked" }, box, el("label", { for: id }, `A different one for each of ${param.max_length}`));
+  return field_frame(param, path, el("div", {}, controls, line), { group: true });
 }
 
 function text_field(param, path, model) {

@@ -9,13 +9,10 @@
 
 #include "renderer/errors.h"
 #include "renderer/scene/glsl_shading.h"
-#include "renderer/scene/textures.h"
 
 namespace sheer {
 
 namespace {
-
-constexpr int texture_count = 4;
 
 /// As in shaders/scenes/materials.glsl and material.glsl.
 constexpr GLuint pictures_unit = 3, materials_binding = 4;
@@ -204,28 +201,31 @@ void Scene::fill_layer(const gl::Texture& texture, GLint layer, GLint first_leve
 
 void Scene::make_textures(const Geometry& geometry, const nlohmann::json& texture) {
     m_textures = make_repeating_array("scene textures");
-    const GLuint id = m_textures.id();
-    if (geometry.texture) return fill_textures(*geometry.texture);
-    for (int variant = 0; variant < texture_count; ++variant) {
-        const auto levels =
-            make_texture(texture.at("image").get<std::string>(), texture.at("size").get<int>(), variant);
-        const auto level_count = static_cast<GLsizei>(levels.size());
-        if (variant == 0)
-            m_gl.TextureStorage3D(id, level_count, GL_RGBA8, levels[0].size_px, levels[0].size_px, texture_count);
-        for (GLint level = 0; level < level_count; ++level) {
-            const TextureLevel& pixels = levels[static_cast<std::size_t>(level)];
-            m_gl.TextureSubImage3D(id, level, 0, 0, variant, pixels.size_px, pixels.size_px, 1, GL_RGBA,
-                                   GL_UNSIGNED_BYTE, pixels.rgba.data());
+    const nlohmann::json& image = texture.at("image");
+    const auto size_px = texture.at("size").get<int>();
+    const bool eight_bit =
+        std::ranges::all_of(geometry.textures, [](const auto& named) { return named.second.eight_bit; });
+    m_gl.TextureStorage3D(m_textures.id(), std::bit_width(static_cast<unsigned>(size_px)),
+                          eight_bit ? GL_RGBA8 : GL_RGBA16F, size_px, size_px, texture_count);
+    std::string last;
+    std::vector<Image> levels;
+    for (int layer = 0; layer < texture_count; ++layer) {
+        const auto name = (image.is_array() ? image[static_cast<std::size_t>(layer)] : image).get<std::string>();
+        const auto file = geometry.textures.find(name);
+        if (file == geometry.textures.end()) {
+            fill_painted_layer(layer, make_texture(name, size_px, layer));
+            continue;
         }
+        if (name != last) levels = make_mipmaps(file->second.image);
+        last = name;
+        fill_layer(m_textures, layer, 0, levels);
     }
 }
 
-void Scene::fill_textures(const Picture& picture) {
-    const std::vector<Image> levels = make_mipmaps(picture.image);
-    m_gl.TextureStorage3D(m_textures.id(), static_cast<GLsizei>(levels.size()),
-                          picture.eight_bit ? GL_RGBA8 : GL_RGBA16F, picture.image.width_px, picture.image.height_px,
-                          texture_count);
-    for (int layer = 0; layer < texture_count; ++layer) fill_layer(m_textures, layer, 0, levels);
+void Scene::fill_painted_layer(GLint layer, const std::vector<TextureLevel>& levels) const {
+    for (std::size_t level = 0; level < levels.size(); ++level)
+        m_gl.TextureSubImage3D(m_textures.id(), static_cast<GLint>(level), 0, 0, layer, levels[level].size_px,
+                               levels[level].size_px, 1, GL_RGBA, GL_UNSIGNED_BYTE, levels[level].rgba.data());
 }
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,

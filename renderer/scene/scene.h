@@ -4,6 +4,7 @@
 
 #include "renderer/gl/objects.h"
 #include "renderer/scene/scene_info.h"
+#include "renderer/scene/textures.h"
 
 namespace sheer {
 
@@ -65,7 +66,7 @@ class Scene {
     void make_shading(const Geometry& geometry, const nlohmann::json& parameters);
     void add_own_shading(const Geometry& geometry, const nlohmann::json& parameters);
     void make_textures(const Geometry& geometry, const nlohmann::json& texture);
-    void fill_textures(const Picture& picture);
+    void fill_painted_layer(GLint layer, const std::vector<TextureLevel>& levels) const;
     void make_materials(const Geometry& geometry);
     void make_pictures(const Geometry& geometry);
     void add_emission_uvs(const std::vector<glm::vec2>& uvs);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "renderer/scene/glsl_shading.h"
+#include "renderer/scene/textures.h"
 #include "renderer/spec/names.h"
 
 namespace sheer {
@@ -31,7 +32,9 @@ std::vector<Param> SceneInfo::all_parameters() const {
         "shading", "what the fragment shader does: textures read and positions bent, or GLSL of your own",
         default_shading, std::move(shadings), {glsl.required()}));
     all.push_back(Param::object("texture", "the four textures that the shading reads",
-                                {Param::asset("image", "what they show", "texture", default_texture, {"leaf", "smoke"}),
+                                {Param::asset("image", "what they show: one name for all four, or one for each",
+                                              "texture", default_texture, {"leaf", "smoke"})
+                                     .or_each_of(texture_count),
                                  Param::integer("size", "width and height", "px", 1024, 1, 4096)}));
     return all;
 }
@@ -41,12 +44,15 @@ Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, Ass
     std::string field = "/scene/" + info.asset_field;
     try {
         Geometry geometry = info.build(scene, image, assets);
-        field = "/scene/texture/image";
         for (const AssetReference& reference : scene_assets(scene)) {
-            if (reference.pointer != field) continue;
+            if (!reference.pointer.starts_with("/scene/texture/image")) continue;
+            field = reference.pointer;
+            if (geometry.textures.contains(reference.name)) continue;
             const int size_px = scene.at("texture").at("size");
-            geometry.texture = assets.picture(reference.name, size_px, size_px);
-            add_notes_of(geometry.notes, geometry.texture->notes, field);
+            const Picture& picture =
+                geometry.textures.emplace(reference.name, assets.picture(reference.name, size_px, size_px))
+                    .first->second;
+            add_notes_of(geometry.notes, picture.notes, field);
         }
         return geometry;
     } catch (const AssetError& error) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -59,10 +60,10 @@ struct Geometry {
     glm::mat4 view_projection{1.0f};
     nlohmann::json camera;  ///< where it is looked at from, as the spec says it; null for scenes that have no camera
     std::vector<SurfaceMaterial> materials;
-    std::vector<Picture> pictures;        ///< of the materials
-    PictureArrays picture_arrays;         ///< where the pictures lie
-    std::vector<glm::vec2> emission_uvs;  ///< of the vertices, where a material has an emission picture; else none
-    std::optional<Picture> texture;       ///< square; in place of the four procedural textures
+    std::vector<Picture> pictures;            ///< of the materials
+    PictureArrays picture_arrays;             ///< where the pictures lie
+    std::vector<glm::vec2> emission_uvs;      ///< of the vertices, where a material has an emission picture; else none
+    std::map<std::string, Picture> textures;  ///< square; of the four textures those that are files, by their names
     std::optional<VolumeShading> volume;
     bool parallel = false;    ///< drawing the primitives in depth order is exact: none intersect, each has one depth
     std::vector<Note> notes;  ///< of the files that the scene is made from
@@ -98,7 +99,7 @@ const std::vector<SceneInfo>& all_scenes();
 /// Null if there is none of this id; letter case is passed over.
 const SceneInfo* find_scene(const std::string& id);
 
-/// The scene of a normalised spec, with its texture where that is a file.
+/// The scene of a normalised spec, with those of its textures that are files.
 /// Throws SpecError, at the field that refers to it, for a file that cannot be used.
 Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets);
 /// Every file that a normalised scene refers to, with pointers from /scene.

@@ -7,6 +7,9 @@
 
 namespace sheer {
 
+/// How many textures a scene has.
+inline constexpr int texture_count = 4;
+
 /// One level of a texture: rows from the top down, 4 interleaved channels of 8 bits, straight alpha.
 struct TextureLevel {
     int size_px = 0;

@@ -64,7 +64,9 @@ std::string type_text(const json& field) {
         std::vector<std::string> names;
         for (const json& choice : field.value("choices", json::array())) names.push_back(code(choice));
         names.push_back(fmt::format("the SHA-256 of an uploaded {}", field.value("asset_type", "file")));
-        return fmt::format("{}", fmt::join(names, ", "));
+        const std::string each =
+            field.contains("max_length") ? fmt::format(", or an array of {}", plain(field["max_length"])) : "";
+        return fmt::format("{}{}", fmt::join(names, ", "), each);
     }
     return kind == "any" ? std::string() : kind;
 }

@@ -144,14 +144,27 @@ class ValueReader {
         return value;
     }
 
+    static bool is_asset_name(const json& value) {
+        return value.is_string() && !value.get_ref<const std::string&>().empty() &&
+               value.get_ref<const std::string&>().size() <= max_asset_name_bytes;
+    }
+
     json asset(const json& value) {
-        if (value.is_string() && !value.get_ref<const std::string&>().empty() &&
-            value.get_ref<const std::string&>().size() <= max_asset_name_bytes)
-            return value;
-        if (m_param.choices.empty()) return wrong("must be the SHA-256 of an uploaded " + m_param.asset_type, value);
-        return wrong(fmt::format("must be one of {}, or the SHA-256 of an uploaded {}",
-                                 fmt::join(m_param.choices, ", "), m_param.asset_type),
-                     value);
+        if (is_asset_name(value)) return value;
+        std::string what = "must be the SHA-256 of an uploaded " + m_param.asset_type;
+        if (!m_param.choices.empty())
+            what = fmt::format("must be one of {}, or the SHA-256 of an uploaded {}", fmt::join(m_param.choices, ", "),
+                               m_param.asset_type);
+        if (m_param.max_length == 0) return wrong(what, value);
+        if (!value.is_array() || value.size() != m_param.max_length)
+            return wrong(fmt::format("{}, or an array of {} of them", what, m_param.max_length), value);
+        bool right = true;
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (is_asset_name(value[i])) continue;
+            right = false;
+            m_errors.push_back({fmt::format("{}/{}", m_pointer, i), fmt::format("{}, not {}", what, quoted(value[i]))});
+        }
+        return right ? value : m_param.default_value;
     }
 
     json numbers(const json& value) {
@@ -257,6 +270,13 @@ json value_schema(const Param& param) {
             break;
         case Param::Kind::asset:
             schema = {{"type", "string"}, {"minLength", 1}, {"maxLength", max_asset_name_bytes}};
+            if (param.max_length > 0)
+                schema = {{"anyOf",
+                           {schema,
+                            {{"type", "array"},
+                             {"minItems", param.max_length},
+                             {"maxItems", param.max_length},
+                             {"items", schema}}}}};
             break;
         case Param::Kind::any:
             break;
@@ -355,6 +375,12 @@ Param Param::asset(std::string name, std::string summary, std::string type, std:
     return param;
 }
 
+Param Param::or_each_of(std::size_t count) const {
+    Param param = *this;
+    param.max_length = count;
+    return param;
+}
+
 Param Param::required() const {
     Param param = *this;
     param.suggestion = std::move(param.default_value);
@@ -419,10 +445,14 @@ std::vector<AssetReference> find_assets(const json& object, const std::string& p
     for (const Param& param : fields) {
         const json& value = object.at(param.name);
         const std::string field_pointer = pointer + "/" + pointer_token(param.name);
-        if (param.kind == Param::Kind::asset && value.is_string()) {
-            const auto name = value.get<std::string>();
+        const auto add = [&](const std::string& name, const std::string& where) {
             if (std::ranges::find(param.choices, name) == param.choices.end())
-                found.push_back({field_pointer, name, param.asset_type});
+                found.push_back({where, name, param.asset_type});
+        };
+        if (param.kind == Param::Kind::asset && value.is_string()) {
+            add(value, field_pointer);
+        } else if (param.kind == Param::Kind::asset && value.is_array()) {
+            for (std::size_t i = 0; i < value.size(); ++i) add(value[i], fmt::format("{}/{}", field_pointer, i));
         } else if (value.is_object() && !param.fields.empty()) {
             std::ranges::move(find_assets(value, field_pointer, param.fields), std::back_inserter(found));
         }

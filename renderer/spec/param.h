@@ -27,7 +27,7 @@ struct Param {
     std::vector<std::string> choices;  ///< of a choice; of an asset: the names that mean something built in
     std::string asset_type;            ///< of an asset: texture, model or volume
     std::size_t min_length = 0;        ///< of text (bytes), numbers and lists
-    std::size_t max_length = 0;
+    std::size_t max_length = 0;        ///< of an asset: how many an array in its place has; 0 for none
     std::vector<Param> fields;  ///< of an object, of the objects in a list, of the object that a choice may be instead
 
     static Param number(std::string name, std::string summary, std::string unit, double fallback, double min,
@@ -51,6 +51,8 @@ struct Param {
     /// default.
     static Param asset(std::string name, std::string summary, std::string type, std::string fallback,
                        std::vector<std::string> built_in);
+    /// One such file or name, or an array of `count` of them.
+    Param or_each_of(std::size_t count) const;
 
     /// The same field without a default; what was the default is the suggestion.
     Param required() const;

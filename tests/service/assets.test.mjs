@@ -75,9 +75,7 @@ test("an upload is kept once and becomes the texture of a report", async () => {
 
 test("what is not what it says is refused with the reason, and nothing is left", async () => {
   await with_service({ workers: 0, assets: { max_bytes: 20_000 } }, async (service) => {
-    const huge = Buffer.from(PICTURE);
-    huge.writeUInt32BE(60000, 16);
-    huge.writeUInt32BE(60000, 20);
+    const huge = png(60000, 60000, 2, [Buffer.alloc(3)]);
     const refused = [
       ["no type", PICTURE, null, 415, /Content-Type is missing/],
       ["another type", PICTURE, "text/plain", 415, /image\/png.*not text\/plain/],
@@ -131,6 +129,21 @@ test("a spec names an asset that is there, never a path", async () => {
     await assert_problem(await fetch(service.origin + url, { method: "DELETE" }), 409);
     await fetch(`${service.api}/reports/${id}`, { method: "DELETE" });
     assert.equal((await fetch(service.origin + url, { method: "DELETE" })).status, 204);
+  });
+});
+
+test("each of four textures may be an upload, which is then in use", async () => {
+  await with_service({ workers: 0 }, async (service) => {
+    const uploads = [];
+    for (const color of [[1, 2, 3], [4, 5, 6]])
+      uploads.push(await (await upload(service, plain_png(4, color), "image/png")).json());
+    const four = ["leaf", uploads[0].sha256, "smoke", uploads[1].sha256];
+    const problem = await assert_problem(await service.post(textured([...four.slice(0, 3), SHA256])), 422);
+    assert.deepEqual(problem.errors.map(({ pointer }) => pointer), ["/scene/texture/image/3"]);
+    const id = await service.submit(textured(four));
+    for (const { url } of uploads) await assert_problem(await fetch(service.origin + url, { method: "DELETE" }), 409);
+    await fetch(`${service.api}/reports/${id}`, { method: "DELETE" });
+    for (const { url } of uploads) assert.equal((await fetch(service.origin + url, { method: "DELETE" })).status, 204);
   });
 });
 
