@@ -17,7 +17,7 @@ constexpr int max_pixels_at_a_time = 1;
 // Beyond any image and any sweep: which ones there are depends on the report.
 constexpr double max_coordinate_px = 1e6;
 
-ReportRecord done_report(Service& service, const Request& request) {
+ReportRecord done_report_of(Service& service, const Request& request) {
     ReportRecord record = found_report(service.store, request);
     if (record.status != Status::done)
         throw Problem(409, fmt::format("The report is not done: it is {}.", status_text(record.status)));
@@ -43,7 +43,7 @@ void check_place(const PixelPlace& place, const json& report) {
 
 Answer get_pixel(Service& service, std::atomic<int>& taken, const Request& request) {
     const PixelPlace place{request.query["x"], request.query["y"], request.query["run"]};
-    const ReportRecord record = done_report(service, request);
+    const ReportRecord record = done_report_of(service, request);
     check_place(place, json::parse(record.report));
     const Slot slot(taken, max_pixels_at_a_time, "Another pixel is being taken apart; come again.");
     const PixelAnswer answer = service.take_pixel_apart(record.report, place);
