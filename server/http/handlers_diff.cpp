@@ -30,8 +30,8 @@ class InlineSink : public BlobSink {
 };
 
 Answer get_diff(Service& service, std::atomic<int>& diffs, const Request& request) {
-    const json a = done_report(service.store, request.path_values.at("id"));
-    const json b = done_report(service.store, request.query["against"]);
+    const json a = done_report_json(service.store, request.path_values.at("id"));
+    const json b = done_report_json(service.store, request.query["against"]);
     const auto read_picture = [&service](const json& image) { return picture_bytes(service.store, image); };
     InlineSink sink;
     DiffOptions options{.max_pixels = max_pixels};

@@ -26,7 +26,7 @@ ReportRecord found_report(Service& service, const Request& request) {
 }
 
 json finished_report(Service& service, const Request& request) {
-    return done_report(service.store, request.path_values.at("id"));
+    return done_report_json(service.store, request.path_values.at("id"));
 }
 
 Answer get_html(Service& service, const Request& request) {

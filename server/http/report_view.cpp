@@ -77,7 +77,7 @@ std::string picture_bytes(Store& store, const json& image) {
     return read_file(blob->path, max_picture_bytes);
 }
 
-json done_report(Store& store, const std::string& id) {
+json done_report_json(Store& store, const std::string& id) {
     const auto record = store.find(id);
     if (!record) throw Problem(404, fmt::format("There is no report \"{}\".", id));
     if (record->status != Status::done)

@@ -13,7 +13,7 @@ ReportRecord found_report(Store& store, const Request& request);
 /// A JSON object that the archive keeps as a text. Throws DamagedFile, naming `what`, if it is none.
 nlohmann::json stored_json(const std::string& text, const std::string& what);
 /// The done report `id`. Throws Problem (404, 409), DamagedFile.
-nlohmann::json done_report(Store& store, const std::string& id);
+nlohmann::json done_report_json(Store& store, const std::string& id);
 /// The bytes of a picture of a report, known to be those that its sha256 names. Throws DamagedFile.
 std::string picture_bytes(Store& store, const nlohmann::json& image);
 /// The report as its readers see it: as committed when it is done, else what is known so far.
