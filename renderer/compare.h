@@ -32,6 +32,8 @@ struct MethodResult {
     std::string reason;         ///< why not ok
     Image image;
     std::vector<gl::FrameSample> samples;  ///< every timed frame, in the order of the rounds
+    bool sorts = false;                    ///< it draws in an order of depths
+    std::vector<double> sort_ms;           ///< wall time of sorting for each of these frames (DepthSort); empty: none
     std::optional<Metrics> metrics;        ///< absent where the method has none
     std::string no_metrics_reason;
     std::int64_t memory_bytes = 0;  ///< GL objects the method made for itself
@@ -45,6 +47,8 @@ struct Run {
     SweepPoint point = nlohmann::json::object();
     ImageSpec image;
     MethodSpec reference;
+    std::string reference_status = "ok";  ///< ok, unsupported, failed; without a reference nothing has metrics
+    std::string reference_reason;         ///< why not ok
     Image reference_image;
     std::optional<double> residual;  ///< greatest difference of the two references, in 0..1
     std::string no_residual_reason;
@@ -53,6 +57,9 @@ struct Run {
     PixelCounts overdraw;  ///< transparent fragments that opaque geometry does not hide
     /// Frames of a second instance of the baseline, in the same rounds; none where the baseline cannot run.
     std::vector<gl::FrameSample> baseline_again;
+    std::vector<double> baseline_again_sort_ms;  ///< as MethodResult::sort_ms
+    std::string no_sort_reason;                  ///< why no sorting was timed though a method sorts
+    std::string nothing_drawn;                   ///< why there is nothing to compare, a sentence; "" where there is
     int rounds_done = 0;
     std::vector<Note> notes;        ///< of the scene and its files
     std::vector<SourceFile> files;  ///< that the scene is made from
@@ -72,8 +79,11 @@ using RunFunction = std::function<void(const Run& run)>;
 
 /// At every point of the sweep: renders every method of the spec and its reference, times them, and measures the
 /// difference.
-/// A method that this device cannot run is reported as unsupported. Throws RenderError if rendering fails as a whole.
-/// Throws SpecError for a file of the spec that `assets` cannot read.
+///
+/// A method, or the reference, that this device cannot run or that fails in any stage is reported as `unsupported` or
+/// `failed` with the reason, and the others go on; the baseline must run twice. Throws RenderError if rendering fails
+/// as a whole: the scene cannot be made, or the device is lost (ContextLost). Throws SpecError for a file of the spec
+/// that `assets` cannot read, and for shading of the user's own that does not compile.
 void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress,
              const RunFunction& take);
 

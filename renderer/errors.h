@@ -55,6 +55,11 @@ class WriteError : public std::system_error {
     bool is_full() const { return code() == std::errc::no_space_on_device; }
 };
 
+/// The device or its driver started anew (GL_CONTEXT_LOST): nothing more can be rendered on this context.
+class ContextLost : public RenderError {
+    using RenderError::RenderError;
+};
+
 /// The caller asked to stop.
 class Cancelled : public std::runtime_error {
   public:

@@ -71,13 +71,13 @@ class Bench {
             }
         }
         write(report, m_arguments.out);
-        return report["verdict"] == "failed" ? cli::exit_check_failed : cli::exit_ok;
+        return cli::exit_code_of(report);
     }
 
   private:
     void render() {
         const std::array kinds{gl::Kind{"egl", gl::egl_candidates, true}};
-        const auto context = gl::create_context(m_arguments.context, kinds);
+        const auto context = gl::open_device(m_arguments.context, kinds);
         const Device device = describe_device(*context);
         {
             const std::lock_guard lock(m_busy);

@@ -53,6 +53,12 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
     return exit_code;
 }
 
+int exit_code_of(const nlohmann::json& report) {
+    for (const nlohmann::json& check : report["checks"])
+        if (!check["passed"].get<bool>()) return exit_check_failed;
+    return report["verdict"] == "failed" ? exit_render_failed : exit_ok;
+}
+
 int guarded(const std::function<int()>& action) {
     try {
         return action();

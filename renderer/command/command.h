@@ -35,6 +35,9 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Of a report: exit_check_failed where a check failed, else exit_render_failed where a method or the reference did.
+int exit_code_of(const nlohmann::json& report);
+
 /// Runs `action` and turns what it throws into a message on stderr and an exit code.
 int guarded(const std::function<int()>& action);
 

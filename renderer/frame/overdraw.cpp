@@ -4,18 +4,25 @@
 
 namespace sheer {
 
-PixelCounts count_overdraw(const gl::Functions& gl, const Scene& scene, const Target& target, gl::FrameTimer& timer) {
+namespace {
+
+/// Adds up what `shader` makes of each transparent fragment, by blending in 32-bit floats: exact up to 2^24 of them per
+/// pixel.
+PixelCounts count_by(const gl::Functions& gl, const Scene& scene, const Target& target, gl::FrameTimer& timer,
+                     std::string_view shader, bool hidden_by_opaque) {
     const int width = target.width_px(), height = target.height_px();
     const gl::Texture counter = gl::make_texture_2d(gl, "overdraw", GL_R32F, width, height);
     const gl::Framebuffer framebuffer =
         gl::make_framebuffer(gl, "overdraw", std::array{counter.id()}, target.depth().id());
-    const gl::Program program = scene.make_program("overdraw", gl::shader_file("common/count.glsl"));
-    OpaquePass(gl, scene, target).draw(timer);
+    const gl::Program program = scene.make_program("overdraw", gl::shader_file(shader));
+    if (hidden_by_opaque) OpaquePass(gl, scene, target).draw(timer);
     {
         const auto pass = timer.pass("overdraw", gl::Phase::transparent);
         begin_pass(gl, framebuffer, width, height);
         const glm::vec4 zero(0);
         gl.ClearBufferfv(GL_COLOR, 0, &zero[0]);
+        const float far = 1;
+        if (!hidden_by_opaque) gl.ClearBufferfv(GL_DEPTH, 0, &far);
         set_transparent_depth_state(gl);
         gl.Enable(GL_BLEND);
         gl.BlendFunc(GL_ONE, GL_ONE);
@@ -25,6 +32,21 @@ PixelCounts count_overdraw(const gl::Functions& gl, const Scene& scene, const Ta
     gl.GetTextureImage(counter.id(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
                        values.data());
     return {width, height, std::vector<std::uint32_t>(values.begin(), values.end())};
+}
+
+}  // namespace
+
+PixelCounts count_overdraw(const gl::Functions& gl, const Scene& scene, const Target& target, gl::FrameTimer& timer) {
+    return count_by(gl, scene, target, timer, "common/count.glsl", true);
+}
+
+PixelCounts count_visible(const gl::Functions& gl, const Scene& scene, const Target& target, gl::FrameTimer& timer) {
+    return count_by(gl, scene, target, timer, "common/count_visible.glsl", true);
+}
+
+PixelCounts count_behind_opaque(const gl::Functions& gl, const Scene& scene, const Target& target,
+                                gl::FrameTimer& timer) {
+    return count_by(gl, scene, target, timer, "common/count.glsl", false);
 }
 
 }  // namespace sheer

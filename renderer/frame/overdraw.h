@@ -4,8 +4,12 @@
 
 namespace sheer {
 
-/// Counts the transparent fragments of each pixel that opaque geometry does not hide. By additive blending in 32-bit
-/// floats: exact up to 2^24 fragments per pixel. Draws the opaque pass first.
+/// Transparent fragments that opaque geometry does not hide, counted in every pixel.
 PixelCounts count_overdraw(const gl::Functions& gl, const Scene& scene, const Target& target, gl::FrameTimer& timer);
+/// Those of them whose alpha is not 0.
+PixelCounts count_visible(const gl::Functions& gl, const Scene& scene, const Target& target, gl::FrameTimer& timer);
+/// All transparent fragments, as if there were no opaque geometry.
+PixelCounts count_behind_opaque(const gl::Functions& gl, const Scene& scene, const Target& target,
+                                gl::FrameTimer& timer);
 
 }  // namespace sheer

@@ -1,5 +1,4 @@
 #include <array>
-#include <stdexcept>
 
 #include "renderer/gl/context_kinds.h"
 
@@ -18,18 +17,18 @@ std::unique_ptr<Context> create_context(const ContextRequest& request) {
     return create_context(request, all_kinds);
 }
 
+std::unique_ptr<Context> open_device(const ContextRequest& request) {
+    return open_device(request, all_kinds);
+}
+
+void require_sound_window() {
+    ContextRequest request;
+    request.context = "glfw";
+    require_sound(request, all_kinds);
+}
+
 std::vector<ListedDevice> list_devices() {
-    std::vector<ListedDevice> all;
-    for (const Kind& kind : all_kinds) {
-        for (const Candidate& candidate : kind.candidates()) {
-            try {
-                all.push_back({candidate.create(candidate.info, {})->device(), std::nullopt});
-            } catch (const std::runtime_error& error) {
-                all.push_back({candidate.info, error.what()});
-            }
-        }
-    }
-    return all;
+    return list_devices(all_kinds);
 }
 
 }  // namespace sheer::gl

@@ -72,9 +72,16 @@ class Context {
 /// std::invalid_argument for a kind or a workaround that does not exist. The new context is current.
 std::unique_ptr<Context> create_context(const ContextRequest& request);
 
+/// The same for a program that lives for what it renders: the choice is first made in a child (forked.h), so that a
+/// driver that crashes or hangs while it is looked at is left out, with that reason, and the next device has its turn.
+/// To be called before any other of OpenGL, with one thread running.
+std::unique_ptr<Context> open_device(const ContextRequest& request);
+/// For a window of GLFW, whose context is made with it: throws Unsupported if its driver crashes or hangs.
+void require_sound_window();
+
 /// What can be rendered on here: every EGL device and the surfaceless platform, OSMesa, GLFW where there is a display.
 /// A kind that cannot be had is listed with `error` in place of the strings, so that the user sees why.
-/// It makes a context of each, so no context is current afterwards.
+/// Each is looked at in a child, so that a driver that crashes is its own line; call it as open_device().
 struct ListedDevice {
     DeviceInfo info;
     std::optional<std::string> error;

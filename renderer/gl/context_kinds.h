@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <span>
@@ -33,7 +34,17 @@ struct Kind {
     bool automatic = false;  ///< whether "auto" tries it
 };
 
-/// create_context() of context.h over these kinds, in their order.
+/// A driver that has said nothing for so long is taken for one that hangs.
+inline constexpr std::chrono::seconds look_time_limit{30};
+
+/// create_context(), open_device() and list_devices() of context.h over these kinds, in their order.
 std::unique_ptr<Context> create_context(const ContextRequest& request, std::span<const Kind> kinds);
+std::unique_ptr<Context> open_device(const ContextRequest& request, std::span<const Kind> kinds,
+                                     std::chrono::milliseconds time_limit = look_time_limit);
+std::vector<ListedDevice> list_devices(std::span<const Kind> kinds,
+                                       std::chrono::milliseconds time_limit = look_time_limit);
+
+/// Throws Unsupported with the reason if one of the candidates that open_device() would try takes its process down.
+void require_sound(const ContextRequest& request, std::span<const Kind> kinds);
 
 }  // namespace sheer::gl

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <stdexcept>
 
 #include "renderer/errors.h"
 #include "renderer/gl/context_kinds.h"
+#include "renderer/gl/forked.h"
 
 namespace sheer::gl {
 namespace {
@@ -41,15 +43,27 @@ class Selection {
     By m_by;
 };
 
+/// What is known before a choice, and who is told how it goes.
+struct Choice {
+    std::map<std::string, std::string> unusable;  ///< candidates that are left out, by name, and why
+    Say say;                                      ///< told the name of each candidate before it is tried; may be null
+};
+
 /// The best context of one kind, or null with the reasons added. A GPU comes before software, which comes before what
 /// is there for machines without EGL devices.
 std::unique_ptr<Context> best_of(std::vector<Candidate> candidates, const Selection& selection,
-                                 const ContextRequest& request, std::vector<std::string>& reasons) {
+                                 const ContextRequest& request, const Choice& choice,
+                                 std::vector<std::string>& reasons) {
     std::ranges::stable_sort(candidates, {}, &Candidate::expectation);
     std::unique_ptr<Context> best;
     for (const Candidate& candidate : candidates) {
         if (best != nullptr && candidate.expectation != Expectation::gpu) break;
         if (!selection.may_be(candidate.info)) continue;
+        if (const auto found = choice.unusable.find(candidate.info.name); found != choice.unusable.end()) {
+            reasons.push_back(fmt::format("{} ({}): {}", candidate.info.name, candidate.info.platform, found->second));
+            continue;
+        }
+        if (choice.say) choice.say(candidate.info.name);
         try {
             std::unique_ptr<Context> context = candidate.create(candidate.info, request);
             const DeviceInfo& device = context->device();
@@ -68,6 +82,77 @@ std::unique_ptr<Context> best_of(std::vector<Candidate> candidates, const Select
     return best;
 }
 
+std::unique_ptr<Context> choose(const ContextRequest& request, std::span<const Kind> kinds, const Choice& choice) {
+    const Selection selection(request.device, kinds);
+    std::vector<std::string> reasons;
+    for (const Kind& kind : kinds) {
+        if (request.context == "auto" ? !kind.automatic : request.context != kind.name) continue;
+        if (auto context = best_of(kind.candidates(), selection, request, choice, reasons)) return context;
+    }
+    if (reasons.empty()) reasons.emplace_back("there is none of that name");
+    throw Unsupported(fmt::format("no OpenGL 4.5 context '{}'{}: {}", request.context,
+                                  selection.any() ? "" : fmt::format(" on device '{}'", request.device),
+                                  fmt::join(reasons, "; ")));
+}
+
+/// Chooses in children until one comes to its end: the candidates that took theirs with them, and how.
+std::map<std::string, std::string> look_ahead(const ContextRequest& request, std::span<const Kind> kinds,
+                                              std::chrono::milliseconds time_limit) {
+    std::map<std::string, std::string> unusable;
+    while (true) {
+        const ForkedRun run = run_forked(
+            [&](const Say& say) {
+                try {
+                    // Not destroyed: that is for the end, when the report is written.
+                    choose(request, kinds, {unusable, say}).release();
+                } catch (const std::exception&) {
+                    // The process that asks gets the same, with its reasons.
+                }
+            },
+            time_limit);
+        if (run.trouble.empty()) return unusable;
+        if (run.lines.empty() || unusable.contains(run.lines.back()))
+            throw Unsupported("the devices cannot be listed: the process that lists them " + run.trouble);
+        unusable[run.lines.back()] = "its driver " + run.trouble;
+    }
+}
+
+ListedDevice listed(const nlohmann::json& line) {
+    ListedDevice device;
+    const nlohmann::json& info = line.at("info");
+    device.info.context = info.at("context");
+    device.info.index = info.at("index");
+    device.info.name = info.at("name");
+    device.info.renderer = info.at("renderer");
+    device.info.vendor = info.at("vendor");
+    device.info.gl_version = info.at("gl_version");
+    device.info.glsl_version = info.at("glsl_version");
+    device.info.platform = info.at("platform");
+    device.info.software = info.at("software");
+    if (line.at("error").is_string()) device.error = line.at("error");
+    return device;
+}
+
+/// Says of each candidate from the `first` that it is its turn, then what came of it.
+void look_at_candidates(std::span<const Kind> kinds, std::size_t first, const Say& say) {
+    std::size_t number = 0;
+    const auto tell = [&](const DeviceInfo& info, const nlohmann::json& error, bool done) {
+        say(nlohmann::json{{"info", to_json(info)}, {"error", error}, {"done", done}}.dump(
+            -1, ' ', false, nlohmann::json::error_handler_t::replace));
+    };
+    for (const Kind& kind : kinds) {
+        for (const Candidate& candidate : kind.candidates()) {
+            if (number++ < first) continue;
+            tell(candidate.info, nullptr, false);
+            try {
+                tell(candidate.create(candidate.info, {})->device(), nullptr, true);
+            } catch (const std::runtime_error& error) {
+                tell(candidate.info, error.what(), true);
+            }
+        }
+    }
+}
+
 void require_known(std::string_view context, std::span<const Kind> kinds) {
     if (context == "auto" || std::ranges::find(kinds, context, &Kind::name) != kinds.end()) return;
     std::vector<std::string_view> known{"auto"};
@@ -82,16 +167,37 @@ std::unique_ptr<Context> create_context(const ContextRequest& request, std::span
     require_known(request.context, kinds);
     // A wrong name is the caller's mistake, not a reason to go on to the next device.
     const Workarounds names_are_known(DeviceInfo{}, request.disabled_workarounds);
-    const Selection selection(request.device, kinds);
-    std::vector<std::string> reasons;
-    for (const Kind& kind : kinds) {
-        if (request.context == "auto" ? !kind.automatic : request.context != kind.name) continue;
-        if (auto context = best_of(kind.candidates(), selection, request, reasons)) return context;
+    return choose(request, kinds, {});
+}
+
+std::unique_ptr<Context> open_device(const ContextRequest& request, std::span<const Kind> kinds,
+                                     std::chrono::milliseconds time_limit) {
+    require_known(request.context, kinds);
+    const Workarounds names_are_known(DeviceInfo{}, request.disabled_workarounds);
+    return choose(request, kinds, {look_ahead(request, kinds, time_limit), {}});
+}
+
+void require_sound(const ContextRequest& request, std::span<const Kind> kinds) {
+    for (const auto& [name, reason] : look_ahead(request, kinds, look_time_limit))
+        throw Unsupported(fmt::format("{}: {}", name, reason));
+}
+
+std::vector<ListedDevice> list_devices(std::span<const Kind> kinds, std::chrono::milliseconds time_limit) {
+    std::vector<ListedDevice> all;
+    while (true) {
+        const std::size_t first = all.size();
+        const ForkedRun run = run_forked([&](const Say& say) { look_at_candidates(kinds, first, say); }, time_limit);
+        bool is_done = true;
+        for (const std::string& text : run.lines) {
+            const auto line = nlohmann::json::parse(text);
+            if (is_done) all.emplace_back();
+            all.back() = listed(line);
+            is_done = line.at("done");
+        }
+        if (run.trouble.empty()) return all;
+        if (is_done) throw Unsupported("the devices cannot be listed: the process that lists them " + run.trouble);
+        all.back().error = "its driver " + run.trouble;
     }
-    if (reasons.empty()) reasons.emplace_back("there is none of that name");
-    throw Unsupported(fmt::format("no OpenGL 4.5 context '{}'{}: {}", request.context,
-                                  selection.any() ? "" : fmt::format(" on device '{}'", request.device),
-                                  fmt::join(reasons, "; ")));
 }
 
 }  // namespace sheer::gl

@@ -159,8 +159,13 @@ void DebugLog::add(GLenum source, GLenum type, GLenum severity, std::string_view
 void DebugLog::check(const Functions& gl, std::string_view where) {
     // The messages say more than the errors that go with them.
     std::vector<std::string> reasons = take_errors(gl);
+    const bool lost = std::ranges::find(reasons, error_name(GL_CONTEXT_LOST)) != reasons.end() ||
+                      (!reasons.empty() && gl.GetGraphicsResetStatus() != GL_NO_ERROR);
     if (!m_kept.empty()) reasons = std::exchange(m_kept, {});
     if (reasons.empty()) return;
+    if (lost)
+        throw ContextLost(
+            fmt::format("{}: the device was reset and its context is lost: {}", where, fmt::join(reasons, "; ")));
     for (std::string& reason : reasons) reason = with_labels(gl, reason);
     throw RenderError(fmt::format("{}: {}", where, fmt::join(reasons, "; ")));
 }

@@ -24,7 +24,7 @@ class DebugLog {
     void attach(const Functions& gl);
 
     /// Throws RenderError with the messages kept since the last call, or with what glGetError says. `where` comes
-    /// first in its text. The messages and the errors are forgotten.
+    /// first in its text. Throws ContextLost where the device was reset. The messages and the errors are forgotten.
     void check(const Functions& gl, std::string_view where);
 
   private:

@@ -188,11 +188,14 @@ class LinkedLists : public Method {
     std::int64_t m_memory_bytes = 0;
 };
 
+bool draws_sorted(const Scene& scene, const nlohmann::json& parameters) {
+    return scene.parallel() && parameters.at("form") != "lists";
+}
+
 std::unique_ptr<Method> make(const MethodSetup& setup) {
-    const auto form = setup.parameters.at("form").get<std::string>();
-    if (form == "sorted" && !setup.scene.parallel())
+    if (setup.parameters.at("form") == "sorted" && !setup.scene.parallel())
         throw Unsupported("form sorted needs parallel primitives; this scene's may intersect");
-    if (form == "lists" || !setup.scene.parallel()) return std::make_unique<LinkedLists>(setup);
+    if (!draws_sorted(setup.scene, setup.parameters)) return std::make_unique<LinkedLists>(setup);
     return std::make_unique<FrontToBack>(setup, PixelFormat::rgba32f);
 }
 
@@ -209,6 +212,7 @@ MethodInfo method_exact() {
         .bad_at = "Memory and time grow with every fragment.",
         .memory = "28 bytes per fragment of a tile; 16 bytes per pixel in the sorted form",
         .needs_sorting = false,
+        .sorts_here = draws_sorted,
         .parameters = {Param::choice("form",
                                      "per-pixel lists, or sorted blending into 32-bit floats, which is as exact where "
                                      "primitives are parallel; auto takes sorted where it may",

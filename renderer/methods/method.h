@@ -53,10 +53,16 @@ struct MethodInfo {
     std::string bad_at;
     std::string memory;         ///< per pixel, beside the target
     bool needs_sorting = true;  ///< false where the order of submission does not matter or is what is drawn
+    /// Where that depends on the scene and the parameters: whether it draws in an order of depths; null elsewhere.
+    std::function<bool(const Scene& scene, const nlohmann::json& parameters)> sorts_here;
     std::vector<Param> parameters;
     std::string no_metrics_reason;  ///< set where the picture is not meant to be right, so has no error metrics
     /// Throws Unsupported if the device lacks something.
     std::function<std::unique_ptr<Method>(const MethodSetup&)> make;
+
+    bool sorts(const Scene& scene, const nlohmann::json& parameters_here) const {
+        return sorts_here ? sorts_here(scene, parameters_here) : needs_sorting;
+    }
 };
 
 /// Every method, from the generated table.

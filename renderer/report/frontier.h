@@ -4,12 +4,18 @@
 
 namespace sheer {
 
-/// Speed against error in one run: which methods are worth their time.
+/// Speed against error in one run: which methods are worth their time. Here, and nowhere else, it is decided what may
+/// be called fastest; the terminal and the page show it.
 ///
-/// A method is dominated where another one is at least as fast and at least as close to the reference, and better in
-/// one of the two (Pareto). Time is timing.median, the error flip.mean. Returns {error, methods: labels that are not
-/// dominated, fastest first; dominated: [{method, by}]; fastest_under: [{error, method}]; closest_within: [{time_ms,
-/// method}]; sentences}. Null where fewer than two methods have both a time and an error.
+/// A time is better where that is resolved as in Timings::speedup: against the baseline by the speedup's own verdict,
+/// between two others by the ratios of their samples round by round. An error (flip.mean) is better where it is in the
+/// digits shown. A method is dominated where another one is better in one of the two and it is better in none.
+///
+/// Returns {error, fastest: labels that may be called fastest, all resolved faster than the baseline and none of them
+/// than another; methods: labels that are not dominated, fastest first; dominated: [{method, by, reason}];
+/// fastest_under: [{error, method, tied: labels that `method` is not resolved from}], `method` null where nothing is
+/// resolved; closest_within: [{speed, method, tied}]: of the baseline and what is resolved at least `speed` times as
+/// fast, with its whole interval; sentences}. Null where fewer than two methods have both a time and an error.
 nlohmann::json frontier(const nlohmann::json& run, const std::string& baseline);
 
 }  // namespace sheer

@@ -65,7 +65,9 @@ void add_checks(const json& checks, Cases& cases) {
         if (check["passed"].get<bool>()) {
             cases.pass(name);
         } else {
-            cases.fail(name, fmt::format("is {}, wanted{}", check_value(check), check_limits(check)));
+            const json reason = check.value("reason", json());
+            cases.fail(name, fmt::format("is {}, wanted{}{}", check_value(check), check_limits(check),
+                                         reason.is_string() ? ": " + reason.get<std::string>() : ""));
         }
     }
 }
@@ -75,7 +77,10 @@ void add_results(const json& runs, Cases& cases) {
         const std::string point = describe_point(run["point"]), place = point.empty() ? "" : " at " + point;
         for (const json& result : run["results"]) {
             const std::string name = "renders " + result["label"].get<std::string>() + place;
-            if (result["status"] == "ok") {
+            const json nothing_drawn = run.value("nothing_drawn", json());
+            if (result["status"] == "ok" && nothing_drawn.is_string()) {
+                cases.skip(name, nothing_drawn);
+            } else if (result["status"] == "ok") {
                 cases.pass(name);
             } else if (result["status"] == "unsupported") {
                 cases.skip(name, result["reason"]);

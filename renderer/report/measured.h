@@ -9,6 +9,9 @@ namespace sheer {
 /// where it was not measured.
 nlohmann::json measured(const nlohmann::json& result, const std::string& metric);
 
+/// Why it was not measured: the reason that the report has beside the metric's null.
+std::string no_measure_reason(const nlohmann::json& result, const std::string& metric);
+
 /// A number and how far it may be off: low and high are the number where a metric is exact, and infinite where it has
 /// an interval but too few samples for one.
 struct Measured {

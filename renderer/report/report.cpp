@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -71,22 +72,27 @@ class RunWriter {
     json write() const {
         json reference = {{"method", m_run.reference.id},
                           {"parameters", m_run.reference.parameters},
-                          {"images", pictures(m_run.reference_image, "reference-" + m_run.reference.id, true)},
+                          {"images", reference_pictures()},
                           {"findings", m_run.reference_findings},
                           {"residual", {{"depth_peeling", m_run.residual ? json(*m_run.residual) : json()}}}};
         if (!m_run.residual) reference["residual_reason"] = m_run.no_residual_reason;
+        reference["status"] = m_run.reference_status;
+        reference["reason"] = m_run.reference_reason.empty() ? json() : json(m_run.reference_reason);
         json results = json::array();
         for (std::size_t i = 0; i < m_run.results.size(); ++i) {
             const MethodResult& result = m_run.results[i];
             results.push_back(result_json(result, result_name(i, result.method)));
         }
-        json run = {{"point", m_run.point},
-                    {"reference", reference},
-                    {"rounds", {{"asked", m_spec.timing.rounds}, {"done", m_run.rounds_done}}},
-                    {"noise_floor", m_timings.noise()},
-                    {"notes", to_json(m_run.notes)},
-                    {"files", to_json(m_run.files)},
-                    {"results", results}};
+        json run = {
+            {"point", m_run.point},
+            {"reference", reference},
+            {"rounds",
+             {{"asked", m_spec.timing.rounds}, {"done", m_run.rounds_done}, {"needed", m_timings.needed_rounds()}}},
+            {"noise_floor", m_timings.noise()},
+            {"nothing_drawn", m_run.nothing_drawn.empty() ? json() : json(m_run.nothing_drawn)},
+            {"notes", to_json(m_run.notes)},
+            {"files", to_json(m_run.files)},
+            {"results", results}};
         run["frontier"] = frontier(run, m_spec.baseline);
         return run;
     }
@@ -103,6 +109,11 @@ class RunWriter {
         return all;
     }
 
+    json reference_pictures() const {
+        if (m_run.reference_status != "ok") return json::object();
+        return pictures(m_run.reference_image, "reference-" + m_run.reference.id, true);
+    }
+
     json result_json(const MethodResult& result, const std::string& name) const {
         json object = {{"method", result.method.id},
                        {"label", result.method.label},
@@ -117,10 +128,13 @@ class RunWriter {
                        {"memory_bytes", nullptr},
                        {"findings", result.findings},
                        {"notes", to_json(result.notes)}};
+        object["speedup_with_sort"] = m_timings.speedup_with_sort(result);
+        for (const std::string kind : {"speedup", "speedup_with_sort"})
+            if (object[kind].is_null()) object[kind + "_reason"] = m_timings.no_speedup_reason(result);
         if (result.status != "ok") return object;
         object["images"] = pictures(result.image, name, m_run.image.format != PixelFormat::rgba8);
         object["images"].update(count_images(result, name));
-        object["timing"] = m_timings.timing(result.samples);
+        object["timing"] = m_timings.timing(result);
         object["fragments"] = fragments(result);
         object["memory_bytes"] = result.memory_bytes;
         if (result.metrics) {
@@ -233,13 +247,19 @@ json check_all(const std::vector<CheckSpec>& checks, const json& runs) {
             const json* result = find_result(run, check.method);
             if (!result || !lies_at(run["point"], check.at)) continue;
             const json value = measured(*result, check.metric);
+            const json& empty = run["nothing_drawn"];
+            const bool within = passes(check, *result, value), passed = within && empty.is_null();
+            const json reason = !empty.is_null()              ? empty
+                                : within || value.is_number() ? json()
+                                                              : json(no_measure_reason(*result, check.metric));
             all.push_back({{"metric", check.metric},
                            {"method", check.method},
                            {"at", run["point"]},
                            {"min", check.min},
                            {"max", check.max},
                            {"value", value},
-                           {"passed", passes(check, *result, value)}});
+                           {"passed", passed},
+                           {"reason", reason}});
         }
     }
     return all;
@@ -268,10 +288,36 @@ json all_files(const json& runs) {
     return all;
 }
 
-std::string verdict_of(const json& checks) {
-    if (checks.empty()) return "none";
-    return std::ranges::all_of(checks, [](const json& check) { return check["passed"].get<bool>(); }) ? "passed"
-                                                                                                      : "failed";
+/// What failed to render, a sentence each.
+std::vector<std::string> failures(const json& runs) {
+    std::vector<std::string> all;
+    const auto add = [&](const json& run, const std::string& what, const json& one) {
+        if (one["status"] != "failed") return;
+        const std::string at = run["point"].empty() ? "" : " at " + describe_point(run["point"]);
+        all.push_back(fmt::format("{} failed{}: {}", what, at,
+                                  one["reason"].is_string() ? one["reason"].get<std::string>() : "no reason"));
+    };
+    for (const json& run : runs) {
+        add(run, "the reference " + run["reference"]["method"].get<std::string>(), run["reference"]);
+        for (const json& result : run["results"]) add(run, result["label"], result);
+    }
+    return all;
+}
+
+/// What could not be rendered is a failure whether or not a check asks for it.
+void judge(json& report) {
+    const json& checks = report["checks"];
+    const auto failed =
+        std::ranges::count(checks, false, [](const json& check) { return check["passed"].get<bool>(); });
+    std::vector<std::string> reasons = failures(report["runs"]);
+    report["verdict"] = failed > 0 || !reasons.empty() ? "failed" : checks.empty() ? "none" : "passed";
+    for (const json& run : report["runs"])
+        if (run["nothing_drawn"].is_string()) {
+            const std::string at = run["point"].empty() ? "" : "at " + describe_point(run["point"]) + ": ";
+            reasons.push_back(at + run["nothing_drawn"].get<std::string>());
+        }
+    if (failed > 0) reasons.insert(reasons.begin(), fmt::format("{} of {} checks failed", failed, checks.size()));
+    report["verdict_reason"] = reasons.empty() ? json() : json(fmt::format("{}", fmt::join(reasons, "; ")));
 }
 
 }  // namespace
@@ -295,7 +341,7 @@ json ReportMaker::finish() {
     const json& runs = m_report["runs"];
     if (const Suite* suite = find_suite(m_spec.suite)) m_report["suite"] = suite_report(*suite, runs);
     m_report["checks"] = check_all(m_spec.checks, runs);
-    m_report["verdict"] = verdict_of(m_report["checks"]);
+    judge(m_report);
     m_report["notes"] = all_notes(runs);
     m_report["files"] = all_files(runs);
     m_report["points"] = {{"asked", m_spec.points.size()}, {"done", runs.size()}};

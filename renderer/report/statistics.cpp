@@ -1,5 +1,7 @@
 #include "renderer/report/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -84,10 +86,11 @@ const char* verdict_name(Verdict verdict) {
     return "not resolved";
 }
 
-Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>& interval, double noise_factor) {
+Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>& interval, double noise_factor,
+                    const std::string& no_interval_reason) {
     Speedup speedup{value, interval, Verdict::not_resolved, ""};
     if (!interval) {
-        speedup.reason = "too few rounds for an interval";
+        speedup.reason = no_interval_reason;
     } else if (interval->first <= 1 && interval->second >= 1) {
         speedup.reason = "the interval holds 1";
     } else if (value <= noise_factor && value >= 1 / noise_factor) {
@@ -98,9 +101,21 @@ Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>
     return speedup;
 }
 
+std::size_t rounds_needed(std::size_t compared) {
+    // The widest pair of ranks, the least and the greatest sample, misses the median where all lie on one side of it.
+    std::size_t rounds = 1;
+    double missed = 1;
+    while (missed > error_rate / static_cast<double>(compared)) {
+        ++rounds;
+        missed /= 2;
+    }
+    return rounds;
+}
+
 Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise) {
     return judge_ratio(median(ratios), median_interval(ratios, error_rate / static_cast<double>(compared)),
-                       noise ? noise->factor : 1);
+                       noise ? noise->factor : 1,
+                       fmt::format("too few rounds: {}, needs {}", ratios.size(), rounds_needed(compared)));
 }
 
 Summary summarize(std::vector<double> samples) {

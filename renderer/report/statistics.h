@@ -65,7 +65,12 @@ struct Speedup {
 const char* verdict_name(Verdict verdict);
 
 /// Resolved is what lies to one side of 1 with its whole interval, and outside 1 / `noise_factor` to `noise_factor`.
-Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>& interval, double noise_factor);
+/// `no_interval_reason` is the reason where there is no interval.
+Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>& interval, double noise_factor,
+                    const std::string& no_interval_reason);
+
+/// The fewest rounds that give judge_speedup() an interval.
+std::size_t rounds_needed(std::size_t compared);
 
 /// `ratios` must not be empty; `compared` is how many methods, from 1, are held against the baseline.
 Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise);

@@ -54,6 +54,8 @@ Row row(const json& result) {
             outlier_count(result["timing"]),
             interval(result["speedup"]),
             verdict(result["speedup"]),
+            number(result, "/timing/sort/median", "{:.2f}"),
+            interval(result.value("speedup_with_sort", json())),
             number(result, "/metrics/signed/mean_abs", "{:.3f}"),
             number(result, "/metrics/signed/min", "{:.0f}"),
             number(result, "/metrics/signed/max", "{:.0f}"),
@@ -80,10 +82,15 @@ std::string fragment_table(const json& run) {
 }
 
 std::string time_table(const json& run) {
-    std::vector<Row> rows = {{"method", "median ms", "MAD", "p95", "outliers", "speedup [95 %]", "verdict", "mean |d|",
-                              "min d", "max d", "PSNR dB", "SSIM", "FLIP", "differing px"}};
+    std::vector<Row> rows = {{"method", "median ms", "MAD", "p95", "outliers", "speedup [95 %]", "verdict", "sort ms",
+                              "with sort [95 %]", "mean |d|", "min d", "max d", "PSNR dB", "SSIM", "FLIP",
+                              "differing px"}};
     for (const json& result : run["results"]) rows.push_back(row(result));
     return aligned(rows);
+}
+
+bool sorts(const json& result) {
+    return result["timing"].is_object() && result["timing"].value("sort", json()).is_object();
 }
 
 /// What the columns mean, and how far the times can be trusted.
@@ -95,9 +102,17 @@ std::string captions(const json& run, const std::string& baseline) {
     const int done = run["rounds"]["done"], asked = run["rounds"]["asked"];
     text += fmt::format("\nSpeedup over {}, {} of {} rounds{}.", baseline, done, asked,
                         done < asked ? ", ended by max_seconds" : "");
+    const int needed = run["rounds"].value("needed", 0);
+    if (done < needed) text += fmt::format(" Too few rounds: {}, needs {}; nothing is resolved.", done, needed);
+    text += "\nIt is the median of the ratios round by round, which differs from the ratio of the medians.";
+    if (std::ranges::any_of(run["results"], sorts))
+        text +=
+            "\nFrames are drawn in an order made before. sort: what making it anew takes in each frame; with sort: "
+            "with it.";
+    text += "\n";
     if (!run["noise_floor"].is_null())
-        text += fmt::format(" Noise floor, {} against itself: {}.", baseline, interval(run["noise_floor"]));
-    return text + "\n";
+        text += fmt::format("Noise floor, {} against itself: {}.\n", baseline, interval(run["noise_floor"]));
+    return text;
 }
 
 std::string note_lines(const json& notes) {
@@ -138,6 +153,8 @@ std::string check_line(const json& check) {
                                    point.empty() ? "" : " at " + point, check_value(check));
     if (!check["min"].is_null()) line += ", at least " + full_number_text(check["min"]);
     if (!check["max"].is_null()) line += ", at most " + full_number_text(check["max"]);
+    // Reports made before checks had reasons have none.
+    if (const json reason = check.value("reason", json()); reason.is_string()) line += ": " + reason.get<std::string>();
     return line + "\n";
 }
 

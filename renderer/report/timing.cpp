@@ -1,5 +1,7 @@
 #include "renderer/report/timing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -15,6 +17,12 @@ using Samples = std::vector<gl::FrameSample>;
 
 json pair_json(const std::optional<std::pair<double, double>>& interval) {
     return interval ? json{interval->first, interval->second} : json();
+}
+
+json summary_json(const std::vector<double>& times) {
+    const Summary summary = summarize(times);
+    return {{"samples", times},   {"outliers", outliers(times)}, {"median", summary.median},       {"mad", summary.mad},
+            {"min", summary.min}, {"p95", summary.p95},          {"ci95", pair_json(summary.ci95)}};
 }
 
 bool gpu_clock_holds(const Samples& samples) {
@@ -80,13 +88,38 @@ const MethodResult* Timings::baseline() const {
     return found == m_run.results.end() || found->status != "ok" ? nullptr : &*found;
 }
 
+std::string Timings::no_baseline_reason() const {
+    for (const MethodResult& result : m_run.results)
+        if (result.method.label == m_baseline && result.status != "ok")
+            return fmt::format("the baseline {} is {}: {}", m_baseline, result.status, result.reason);
+    return "";
+}
+
+std::string Timings::no_speedup_reason(const MethodResult& result) const {
+    if (result.status != "ok") return result.reason;
+    const std::string reason = no_baseline_reason();
+    if (!reason.empty()) return reason;
+    return speedup(result).is_null() ? "the method took no time" : "sorting was not timed: " + m_run.no_sort_reason;
+}
+
+std::size_t Timings::needed_rounds() const {
+    return rounds_needed(compared_in(m_run));
+}
+
 double Timings::median_ms(const MethodResult& result) const {
     return median(times(result.samples));
 }
 
-json Timings::timing(const Samples& samples) const {
+json Timings::sort(const MethodResult& result) const {
+    if (result.sort_ms.empty()) return nullptr;
+    json sort = summary_json(result.sort_ms);
+    sort.update({{"unit", "ms"}, {"clock", "wall"}});
+    return sort;
+}
+
+json Timings::timing(const MethodResult& result) const {
+    const Samples& samples = result.samples;
     const std::vector<double> chosen = times(samples);
-    const Summary summary = summarize(chosen);
     std::vector<double> gpu, wall;
     std::size_t disagreeing = 0;
     for (const gl::FrameSample& sample : samples) {
@@ -94,44 +127,58 @@ json Timings::timing(const Samples& samples) const {
         wall.push_back(sample.wall_ms);
         disagreeing += sample.valid ? 0 : 1;
     }
-    return {{"unit", "ms"},
-            {"clock", m_gpu_clock ? "gpu" : "wall"},
-            {"samples", chosen},
-            {"outliers", outliers(chosen)},
-            {"median", summary.median},
-            {"mad", summary.mad},
-            {"min", summary.min},
-            {"p95", summary.p95},
-            {"ci95", pair_json(summary.ci95)},
-            {"initialization", phase_median(samples, gl::Phase::initialization)},
-            {"finalization", phase_median(samples, gl::Phase::finalization)},
-            {"passes", passes(samples)},
-            {"gpu_samples", gpu},
-            {"wall_samples", wall},
-            {"disagreeing_samples", disagreeing}};
+    json timing = summary_json(chosen);
+    timing.update({{"unit", "ms"},
+                   {"clock", m_gpu_clock ? "gpu" : "wall"},
+                   {"initialization", phase_median(samples, gl::Phase::initialization)},
+                   {"finalization", phase_median(samples, gl::Phase::finalization)},
+                   {"passes", passes(samples)},
+                   {"gpu_samples", gpu},
+                   {"wall_samples", wall},
+                   {"disagreeing_samples", disagreeing},
+                   {"sort", sort(result)}});
+    if (timing["sort"].is_null())
+        timing["sort_reason"] = result.sorts ? m_run.no_sort_reason : "the method needs no sorting";
+    return timing;
 }
 
 json Timings::noise() const {
     const MethodResult* base = baseline();
     if (!base) return nullptr;
-    const std::vector<double> again = times(m_run.baseline_again);
-    const std::vector<double> ratios = paired_ratios(times(base->samples), again);
+    const std::vector<double> ratios = paired_ratios(times(base->samples), times(m_run.baseline_again));
     if (ratios.empty()) return nullptr;
     const NoiseFloor noise = noise_floor(ratios);
     return {{"method", m_baseline},
             {"value", noise.value},
             {"ci95", pair_json(noise.ci95)},
             {"factor", noise.factor},
-            {"samples", again}};
+            {"samples", ratios}};
 }
 
 json Timings::speedup(const MethodResult& result) const {
+    return judged(result, false);
+}
+
+json Timings::speedup_with_sort(const MethodResult& result) const {
+    const MethodResult* base = baseline();
+    const auto is_untimed = [](const MethodResult& one) { return one.sorts && one.sort_ms.empty(); };
+    if (!base || is_untimed(*base) || is_untimed(result)) return nullptr;
+    return judged(result, true);
+}
+
+json Timings::judged(const MethodResult& result, bool with_sort) const {
     const MethodResult* base = baseline();
     if (!base || result.status != "ok") return nullptr;
-    const std::vector<double> theirs = times(base->samples);
-    const std::vector<double> ratios = paired_ratios(theirs, times(result.samples));
+    const auto taken = [&](const Samples& samples, const std::vector<double>& sort_ms) {
+        std::vector<double> all = times(samples);
+        for (std::size_t i = 0; with_sort && i < std::min(all.size(), sort_ms.size()); ++i) all[i] += sort_ms[i];
+        return all;
+    };
+    const std::vector<double> theirs = taken(base->samples, base->sort_ms);
+    const std::vector<double> ratios = paired_ratios(theirs, taken(result.samples, result.sort_ms));
     if (ratios.empty()) return nullptr;
-    const std::vector<double> noise_ratios = paired_ratios(theirs, times(m_run.baseline_again));
+    const std::vector<double> noise_ratios =
+        paired_ratios(theirs, taken(m_run.baseline_again, m_run.baseline_again_sort_ms));
     const std::optional<NoiseFloor> noise =
         noise_ratios.empty() ? std::nullopt : std::optional(noise_floor(noise_ratios));
     const Speedup speedup = judge_speedup(ratios, compared_in(m_run), noise);

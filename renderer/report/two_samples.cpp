@@ -1,5 +1,7 @@
 #include "renderer/report/two_samples.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -71,6 +73,13 @@ double ranked(std::vector<double>& values, std::size_t rank) {
     return *place;
 }
 
+/// The fewest samples of two equally large sets that have an interval.
+std::size_t two_sample_rounds_needed(double rate) {
+    std::size_t rounds = 1;
+    while (!mann_whitney_rank(rounds, rounds, rate / 2)) ++rounds;
+    return rounds;
+}
+
 }  // namespace
 
 std::optional<std::size_t> mann_whitney_rank(std::size_t count_a, std::size_t count_b, double probability) {
@@ -94,8 +103,11 @@ RatioOfSamples ratio_of_samples(const std::vector<double>& a, const std::vector<
 
 Speedup judge_two_samples(const std::vector<double>& a, const std::vector<double>& b, std::size_t compared,
                           double noise_factor) {
-    const RatioOfSamples ratio = ratio_of_samples(a, b, two_sample_error_rate / static_cast<double>(compared));
-    return judge_ratio(ratio.value, ratio.ci95, noise_factor);
+    const double rate = two_sample_error_rate / static_cast<double>(compared);
+    const RatioOfSamples ratio = ratio_of_samples(a, b, rate);
+    return judge_ratio(ratio.value, ratio.ci95, noise_factor,
+                       fmt::format("too few rounds: {} and {}, needs {} in both reports", a.size(), b.size(),
+                                   two_sample_rounds_needed(rate)));
 }
 
 }  // namespace sheer

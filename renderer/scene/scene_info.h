@@ -88,7 +88,8 @@ struct SceneInfo {
     std::function<void(const nlohmann::json& scene, const std::string& pointer, std::vector<FieldError>& errors)> check;
     /// Throws AssetError, which becomes a SpecError at the field `asset_field` of the scene.
     std::function<Geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets)> build;
-    std::string asset_field;  ///< what `build` reads by `assets`; "" for nothing
+    std::string asset_field;                             ///< what `build` reads by `assets`; "" for nothing
+    std::string transparent = "transparent primitives";  ///< what of it is: "The scene has no ..." where there is none
 
     /// Its own and the ones common to all scenes: shading and texture.
     std::vector<Param> all_parameters() const;

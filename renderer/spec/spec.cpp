@@ -47,8 +47,9 @@ Param optional_text(std::string name, std::string summary) {
 
 std::vector<std::string> metric_names() {
     std::vector<std::string> names = {
-        "speedup",          "timing.median",     "timing.min",       "timing.p95",           "fragments.submitted",
-        "fragments.shaded", "fragments.visible", "fragments.needed", "fragments.efficiency", "memory_bytes"};
+        "speedup",           "speedup_with_sort", "timing.sort.median",   "timing.median",
+        "timing.min",        "timing.p95",        "fragments.submitted",  "fragments.shaded",
+        "fragments.visible", "fragments.needed",  "fragments.efficiency", "memory_bytes"};
     for (const MetricInfo& metric : all_metrics())
         for (const MetricField& field : metric.fields)
             if (field.is_number) names.push_back(field.name.empty() ? metric.id : metric.id + "." + field.name);

@@ -62,7 +62,7 @@ class Comparison {
         } else {
             fmt::print("\nReport: {}\n", page().string());
         }
-        return m_report["verdict"] == "failed" ? exit_check_failed : exit_ok;
+        return exit_code_of(m_report);
     }
 
   private:
@@ -76,7 +76,7 @@ class Comparison {
 
     void render() {
         ProgressLine progress;
-        const auto context = gl::create_context(m_options.context);
+        const auto context = gl::open_device(m_options.context);
         FileAssets assets = assets_in_folder(fs::path(m_options.source.spec).parent_path());
         const Device device = describe_device(*context);
         {

@@ -87,7 +87,7 @@ class Sheet {
 };
 
 int run_gallery(const GalleryArguments& options) {
-    const auto context = gl::create_context(options.context);
+    const auto context = gl::open_device(options.context);
     if (!options.thumbnails.empty()) fs::create_directories(options.thumbnails);
     Sheet sheet;
     for (const std::string& path : options.specs) {

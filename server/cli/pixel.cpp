@@ -60,7 +60,7 @@ class Subject {
     }
 
     json report() {
-        const auto context = gl::create_context(m_options.context);
+        const auto context = gl::open_device(m_options.context);
         const Spec spec = spec_at(m_spec, point());
         FileAssets assets = make_assets();
         const PixelStack stack = take_apart(spec, *context, assets);

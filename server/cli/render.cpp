@@ -46,10 +46,10 @@ int probe(gl::Context& context) {
 
 int run_render(const RenderArguments& options) {
     try {
-        if (options.probe) return probe(*gl::create_context(options.context));
+        if (options.probe) return probe(*gl::open_device(options.context));
         const std::string created_at = utc_now();
         const Spec spec = parse_spec_text(read_text(options.spec));
-        const auto context = gl::create_context(options.context);
+        const auto context = gl::open_device(options.context);
         FileAssets assets(uploads_in(options.assets));
         ContentSink sink(options.out);
         ReportMaker maker(spec, describe_device(*context), &sink, created_at);

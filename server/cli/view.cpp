@@ -18,6 +18,7 @@ struct ViewArguments {
 int run_view(const ViewArguments& options) {
     const Spec spec = load_spec(options.spec);
     FileAssets assets = assets_in_folder(std::filesystem::path(options.spec).parent_path());
+    gl::require_sound_window();
     view::Viewer viewer(spec, options.context, assets, options.screenshot);
     fmt::print("H or F1 in the window tells the keys.\n");
     std::fflush(stdout);

@@ -130,6 +130,7 @@ json report_schema() {
                                {"bytes", {{"type", "integer"}}}},
                               {"pointer", "name", "of", "sha256", "bytes"});
     properties["files"] = {{"type", "array"}, {"items", file}, {"description", "every file that the report drew from"}};
+    properties["verdict_reason"] = nullable("string");
     return object_schema(properties, {"id", "status", "progress", "error", "created_at", "spec", "spec_sha256"});
 }
 

@@ -3,10 +3,12 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <new>
 #include <numbers>
 
 #include "renderer/errors.h"
@@ -168,29 +170,52 @@ void Viewer::build_scene() {
 }
 
 void Viewer::draw_side(Side& side) {
-    if (side.is_drawn || !side.unsupported.empty()) return;
-    make_method(side);
-    if (!side.method) return;
-    m_timer.begin_frame(true);
-    side.method->render(m_timer);
-    side.frame_ms = m_timer.end_frame().wall_ms;
-    m_window.check("rendering " + m_choices[side.choice].label);
-    side.is_drawn = true;
+    if (side.is_drawn || !side.trouble.empty()) return;
+    const std::string doing = "rendering " + m_choices[side.choice].label;
+    // What goes wrong with one method is no reason to close the window on the others; the end of the device is.
+    try {
+        make_method(side);
+        side.frame_ms = render(*side.method, true).wall_ms;
+        m_window.check(doing);
+        side.is_drawn = true;
+    } catch (const ContextLost&) {
+        throw;
+    } catch (const Unsupported& unsupported) {
+        side.trouble = fmt::format("not supported here: {}", unsupported.what());
+    } catch (const RenderError& error) {
+        side.trouble = fmt::format("failed: {}", error.what());
+    } catch (const std::bad_alloc&) {
+        side.trouble = "failed: memory ran out";
+    }
+    if (side.is_drawn) return;
+    side.method.reset();
+    // What is kept beside it is its own, not the next method's.
+    try {
+        m_window.check(doing);
+    } catch (const ContextLost&) {
+        throw;
+    } catch (const RenderError& error) {
+        side.trouble += fmt::format("; {}", error.what());
+    }
+    spdlog::error("{}: {}", m_choices[side.choice].label, side.trouble);
 }
 
 /// A first frame, which may compile, is not the one that is timed.
 void Viewer::make_method(Side& side) {
     const MethodSpec& choice = m_choices[side.choice];
+    side.method = find_method(choice.id)->make({m_window, m_window.gl(), *m_scene, *side.target, choice.parameters});
+    render(*side.method, false);
+}
+
+gl::FrameSample Viewer::render(Method& method, bool timed) {
+    m_timer.begin_frame(timed);
     try {
-        side.method =
-            find_method(choice.id)->make({m_window, m_window.gl(), *m_scene, *side.target, choice.parameters});
-        m_timer.begin_frame(false);
-        side.method->render(m_timer);
+        method.render(m_timer);
+    } catch (...) {
         m_timer.end_frame();
-    } catch (const Unsupported& unsupported) {
-        side.method.reset();
-        side.unsupported = unsupported.what();
+        throw;
     }
+    return m_timer.end_frame();
 }
 
 void Viewer::show_picture() const {
@@ -212,7 +237,7 @@ void Viewer::show_part(const Side& side, int begin_px, int end_px) const {
     const gl::Functions& gl = m_window.gl();
     const Size window = m_window.size();
     const Frame frame = frame_of(window, *side.target);
-    if (!side.unsupported.empty() || begin_px >= end_px) return;
+    if (!side.trouble.empty() || begin_px >= end_px) return;
     gl.Enable(GL_SCISSOR_TEST);
     gl.Scissor(begin_px, 0, end_px - begin_px, window.height_px);
     const bool enlarged = frame.width_px >= side.target->width_px();
@@ -239,7 +264,7 @@ std::string Viewer::title() const {
 
 std::string Viewer::title_of(const Side& side) const {
     const MethodSpec& method = m_choices[side.choice];
-    if (!side.unsupported.empty()) return fmt::format("{}: not supported here: {}", method.label, side.unsupported);
+    if (!side.trouble.empty()) return fmt::format("{}: {}", method.label, side.trouble);
     std::string text = fmt::format("{}: {:.2f} ms", method.label, side.frame_ms);
     if (threshold_of(method) != nullptr)
         text += fmt::format(", threshold {:.4g}", method.parameters.at("threshold").get<double>());

@@ -30,13 +30,13 @@ class Viewer {
         std::unique_ptr<Target> target;
         std::unique_ptr<Method> method;
         bool is_drawn = false;  ///< the target holds what the method makes of the scene
-        std::string unsupported;
+        std::string trouble;    ///< why the method does not draw; "" while it does
         double frame_ms = 0;
         /// Something it depends on is about to change.
         void renew() {
             method.reset();
             is_drawn = false;
-            unsupported.clear();
+            trouble.clear();
         }
     };
 
@@ -51,6 +51,7 @@ class Viewer {
     void build_scene();
     void draw_side(Side& side);
     void make_method(Side& side);
+    gl::FrameSample render(Method& method, bool timed);
     void show_picture() const;
     void show_part(const Side& side, int begin_px, int end_px) const;
     void show_divider() const;

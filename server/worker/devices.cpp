@@ -12,7 +12,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::chrono::seconds time_limit{20};
+/// More than one driver that hangs takes (gl::look_time_limit).
+constexpr std::chrono::seconds time_limit{45};
 
 }  // namespace
 

@@ -1,6 +1,11 @@
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "renderer/gl/context_kinds.h"
+#include "renderer/gl/forked.h"
 #include "tests/gl/fake_driver.h"
 #include "tests/gl/gl_test.h"
 
@@ -143,6 +148,118 @@ TEST(ChooseDevice, WrongNamesAreTheCallersMistake) {
 TEST(ChooseDevice, SoftwareIsToldFromAGpu) {
     EXPECT_TRUE(FakeContext<Llvmpipe>({}, {}).device().software);
     EXPECT_FALSE(FakeContext<Nvidia>({}, {}).device().software);
+}
+
+/// A driver that takes the process down, or never answers.
+Candidate fatal(std::string context, int index, Expectation expectation, void (*how)()) {
+    return {info(std::move(context), index), expectation,
+            [how](const DeviceInfo&, const ContextRequest&) -> std::unique_ptr<Context> {
+                how();
+                throw Unsupported("still alive");
+            }};
+}
+void crash() {
+    std::raise(SIGSEGV);
+}
+void leave() {
+    _exit(0);
+}
+void hang() {
+    while (true) pause();
+}
+
+std::vector<Candidate> egl_that_crashes() {
+    return {fatal("egl", 0, Expectation::gpu, crash), fake<Nvidia>("egl", 1, Expectation::gpu)};
+}
+std::vector<Candidate> egl_that_crashes_in_all_ways() {
+    return {fatal("egl", 0, Expectation::gpu, crash), fatal("egl", 1, Expectation::gpu, std::abort),
+            fatal("egl", 2, Expectation::software, hang)};
+}
+
+using namespace std::chrono_literals;
+
+TEST(OpenDevice, GoesOnWhereADriverCrashes) {
+    const std::array kinds{Kind{"egl", egl_that_crashes, true}, Kind{"osmesa", osmesa, true}};
+    EXPECT_EQ(open_device({"auto", "", {}}, kinds)->device().name, "egl:1");
+    EXPECT_EQ(open_device({"osmesa", "", {}}, kinds)->device().name, "osmesa:0");
+    const std::string refusal = message_of<Unsupported>([&] { open_device({"egl", "0", {}}, kinds); });
+    EXPECT_THAT(refusal, HasSubstr("egl:0 (): its driver crashed (signal 11)"));
+}
+
+TEST(OpenDevice, GoesOnFromCrashToAbortToHangToTheNextKind) {
+    const std::array kinds{Kind{"egl", egl_that_crashes_in_all_ways, true}, Kind{"osmesa", osmesa, true}};
+    EXPECT_EQ(open_device({"auto", "", {}}, kinds, 500ms)->device().name, "osmesa:0");
+    const std::array only{Kind{"egl", egl_that_crashes_in_all_ways, true}};
+    const std::string refusal = message_of<Unsupported>([&] { open_device({"auto", "", {}}, only, 500ms); });
+    for (const char* reason : {"egl:0 (): its driver crashed (signal 11)", "egl:1 (): its driver crashed (signal 6)",
+                               "egl:2 (): its driver gave no answer within 500 ms"})
+        EXPECT_THAT(refusal, HasSubstr(reason));
+}
+
+TEST(OpenDevice, ChoosesAsCreateContextDoes) {
+    const std::array kinds{Kind{"egl", egl_with_gpus, true}, Kind{"osmesa", osmesa, true}};
+    for (const ContextRequest& request :
+         {ContextRequest{"auto", "", {}}, ContextRequest{"egl", "4", {}}, ContextRequest{"auto", "radeon", {}}})
+        EXPECT_EQ(open_device(request, kinds)->device().name, create_context(request, kinds)->device().name);
+    EXPECT_EQ(message_of<Unsupported>([&] {
+                  open_device({"auto", "GeForce", {}}, kinds);
+              }),
+              message_of<Unsupported>([&] {
+                  create_context({"auto", "GeForce", {}}, kinds);
+              }));
+    EXPECT_THROW(open_device({"vulkan", "", {}}, kinds), std::invalid_argument);
+}
+
+TEST(OpenDevice, AWindowsDriverMustBeSound) {
+    const std::array crashing{Kind{"egl", egl_that_crashes, true}};
+    EXPECT_THAT(message_of<Unsupported>([&] {
+                    require_sound({"egl", "", {}}, crashing);
+                }),
+                HasSubstr("egl:0: its driver crashed"));
+    const std::array sound{Kind{"osmesa", osmesa, true}};
+    EXPECT_NO_THROW(require_sound({"osmesa", "", {}}, sound));
+}
+
+TEST(ListDevices, ACrashIsThatDevicesLine) {
+    const std::array kinds{Kind{"egl", egl_that_crashes, true}, Kind{"broken", egl_with_locked_gpu, true},
+                           Kind{"osmesa", osmesa, true}};
+    const std::vector<ListedDevice> all = list_devices(kinds);
+    ASSERT_EQ(all.size(), 6u);
+    EXPECT_EQ(all[0].info.name, "egl:0");
+    EXPECT_EQ(all[0].error, "its driver crashed (signal 11)");
+    EXPECT_EQ(all[1].info.renderer, Nvidia::renderer);
+    EXPECT_FALSE(all[1].error.has_value());
+    EXPECT_FALSE(all[1].info.software);
+    EXPECT_EQ(all[2].error, "permission denied");
+    EXPECT_TRUE(all[3].info.software);
+    EXPECT_EQ(all[5].info.name, "osmesa:0");
+    EXPECT_EQ(all[5].info.gl_version, "");
+}
+
+TEST(ListDevices, ADriverThatHangsIsStopped) {
+    const std::array kinds{Kind{"egl", egl_that_crashes_in_all_ways, true}, Kind{"osmesa", osmesa, true}};
+    const std::vector<ListedDevice> all = list_devices(kinds, 500ms);
+    ASSERT_EQ(all.size(), 4u);
+    EXPECT_EQ(all[1].error, "its driver crashed (signal 6)");
+    EXPECT_EQ(all[2].error, "its driver gave no answer within 500 ms");
+    EXPECT_EQ(all[3].info.renderer, Llvmpipe::renderer);
+}
+
+TEST(RunForked, TellsHowItEnded) {
+    const auto greet = [](const Say& say) { say("hello"); };
+    EXPECT_EQ(run_forked(greet, 10s).lines, std::vector<std::string>{"hello"});
+    EXPECT_EQ(run_forked(greet, 10s).trouble, "");
+    EXPECT_EQ(run_forked([](const Say&) { leave(); }, 10s).trouble, "");
+    EXPECT_EQ(run_forked([](const Say&) { throw std::runtime_error("x"); }, 10s).trouble,
+              "ended the process (exit code 1)");
+    const ForkedRun late = run_forked(
+        [](const Say& say) {
+            say("before");
+            hang();
+        },
+        300ms);
+    EXPECT_EQ(late.lines, std::vector<std::string>{"before"});
+    EXPECT_EQ(late.trouble, "gave no answer within 300 ms");
 }
 
 }  // namespace

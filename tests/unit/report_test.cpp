@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "renderer/command/command.h"
 #include "renderer/files/blob_sink.h"
 #include "renderer/files/picture_file.h"
 #include "tests/unit/map_sink.h"
@@ -16,6 +17,7 @@ namespace sheer::report_test {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -111,9 +113,11 @@ TEST_F(ReportFixture, TimesAndSpeedupsAreThoseOfTheSamples) {
 
 TEST_F(ReportFixture, TheBaselineIsHeldAgainstItself) {
     const json run = report()["runs"][0];
-    EXPECT_EQ(run["rounds"], json({{"asked", 10}, {"done", 6}}));
+    EXPECT_EQ(run["rounds"], json({{"asked", 10}, {"done", 6}, {"needed", 6}}));
     EXPECT_EQ(run["noise_floor"]["method"], "b2f");
-    EXPECT_EQ(run["noise_floor"]["samples"], json({10.5, 21.0, 31.5, 42.0, 52.5, 63.0}));
+    // Ratios, as all the rest of it: 10 / 10.5 in each round.
+    ASSERT_EQ(run["noise_floor"]["samples"].size(), 6u);
+    for (const json& ratio : run["noise_floor"]["samples"]) EXPECT_NEAR(ratio.get<double>(), 1 / 1.05, 1e-12);
     EXPECT_NEAR(run["noise_floor"]["value"].get<double>(), 1 / 1.05, 1e-9);
     EXPECT_NEAR(run["noise_floor"]["factor"].get<double>(), 1.05, 1e-9);
 
@@ -127,6 +131,110 @@ TEST_F(ReportFixture, TheBaselineIsHeldAgainstItself) {
     runs[0].baseline_again.clear();
     EXPECT_TRUE(report()["runs"][0]["noise_floor"].is_null());
     EXPECT_TRUE(report()["runs"][0]["results"][1]["speedup"].is_null());
+}
+
+TEST_F(ReportFixture, SortingIsToldAndSpeedupsAreGivenWithIt) {
+    // b2f takes 10, 20, ... ms and 30 ms of sorting; f2bd half of that and no sorting.
+    runs[0].results[0].sorts = true;
+    runs[0].results[0].sort_ms = {30, 30, 30, 30, 30, 30};
+    runs[0].baseline_again_sort_ms = {30, 30, 30, 30, 30, 30};
+    const json results = report()["runs"][0]["results"];
+    const json& sort = results[0]["timing"]["sort"];
+    EXPECT_EQ(sort["median"], 30);
+    EXPECT_EQ(sort["mad"], 0);
+    EXPECT_EQ(sort["samples"], json(std::vector(6, 30.0)));
+    EXPECT_EQ(sort["ci95"], json({30.0, 30.0}));
+    EXPECT_EQ(sort["clock"], "wall");
+    EXPECT_TRUE(results[1]["timing"]["sort"].is_null());
+    EXPECT_EQ(results[1]["timing"]["sort_reason"], "the method needs no sorting");
+    EXPECT_EQ(results[1]["speedup"]["value"], 2.0) << "of the frames alone";
+    // (10 + 30) / 5 = 8, 50 / 10 = 5, 60 / 15 = 4, 70 / 20 = 3.5, 80 / 25 = 3.2, 90 / 30 = 3.
+    EXPECT_DOUBLE_EQ(results[1]["speedup_with_sort"]["value"].get<double>(), 3.75);
+    EXPECT_EQ(results[1]["speedup_with_sort"]["ci95"], json({3.0, 8.0}));
+    EXPECT_EQ(results[1]["speedup_with_sort"]["verdict"], "faster");
+    EXPECT_EQ(results[0]["speedup_with_sort"]["value"], 1.0);
+    EXPECT_THAT(report_table(report()), HasSubstr("3.75x [3.00, 8.00]"));
+
+    spec.checks = {{"speedup_with_sort", "F2BD <1>", 3.5, nullptr, json::object()},
+                   {"timing.sort.median", "b2f", nullptr, 29, json::object()},
+                   {"timing.sort.median", "F2BD <1>", nullptr, 29, json::object()}};
+    const json checks = report()["checks"];
+    EXPECT_EQ(checks[0]["passed"], true);
+    EXPECT_EQ(checks[1]["passed"], false);
+    EXPECT_TRUE(checks[1]["reason"].is_null());
+    EXPECT_EQ(checks[2]["reason"], "the method needs no sorting");
+
+    runs[0].results[0].sort_ms.clear();
+    runs[0].no_sort_reason = "preparing the sort: memory ran out";
+    const json without = report()["runs"][0]["results"];
+    EXPECT_EQ(without[0]["timing"]["sort_reason"], "preparing the sort: memory ran out");
+    EXPECT_TRUE(without[1]["speedup_with_sort"].is_null());
+    EXPECT_THAT(without[1]["speedup_with_sort_reason"].get<std::string>(), HasSubstr("memory ran out"));
+}
+
+TEST_F(ReportFixture, AComparisonOfNothingPassesNoCheck) {
+    spec.checks = {{"rmse", "b2f", nullptr, 1, json::object()}};
+    EXPECT_EQ(report()["verdict"], "passed");
+    const std::string why = "Nothing transparent was drawn: all of it has an alpha of 0.";
+    runs[0].nothing_drawn = why;
+    const json made = report();
+    EXPECT_EQ(made["runs"][0]["nothing_drawn"], why);
+    EXPECT_EQ(made["checks"][0]["passed"], false);
+    EXPECT_EQ(made["checks"][0]["reason"], why);
+    EXPECT_EQ(made["verdict"], "failed");
+    EXPECT_EQ(made["verdict_reason"], "1 of 1 checks failed; " + why);
+    EXPECT_EQ(cli::exit_code_of(made), cli::exit_check_failed);
+    EXPECT_THAT(report_junit(made), AllOf(HasSubstr("<failure"), HasSubstr(why), HasSubstr("<skipped")));
+    EXPECT_THAT(report_table(made), HasSubstr(why));
+    spec.checks.clear();
+    EXPECT_EQ(report()["verdict"], "none");
+    EXPECT_EQ(report()["verdict_reason"], why);
+}
+
+TEST_F(ReportFixture, AFailedMethodIsNoSilentPass) {
+    spec.checks = {{"rmse", "b2f", nullptr, 1, json::object()}};
+    EXPECT_EQ(report()["verdict"], "passed") << "unsupported is no failure";
+    EXPECT_TRUE(report()["verdict_reason"].is_null());
+    EXPECT_EQ(cli::exit_code_of(report()), cli::exit_ok);
+    runs[0].results[2].status = "failed";
+    runs[0].results[2].reason = "timing f2bx: GL_OUT_OF_MEMORY";
+    EXPECT_EQ(report()["verdict"], "failed");
+    EXPECT_EQ(report()["verdict_reason"], "f2bx failed: timing f2bx: GL_OUT_OF_MEMORY");
+    EXPECT_EQ(cli::exit_code_of(report()), cli::exit_render_failed) << "no check failed";
+    spec.checks.clear();
+    EXPECT_EQ(report()["verdict"], "failed") << "also where nothing is checked";
+    spec.checks = {{"rmse", "f2bx", nullptr, 1, json::object()}};
+    EXPECT_EQ(report()["checks"][0]["reason"], "failed: timing f2bx: GL_OUT_OF_MEMORY");
+    EXPECT_EQ(cli::exit_code_of(report()), cli::exit_check_failed) << "a check did";
+}
+
+TEST_F(ReportFixture, AFailedBaselineIsTheReasonThatThereIsNoSpeedup) {
+    runs[0].results[0].status = "failed";
+    runs[0].results[0].reason = "rendering b2f: GL_INVALID_ENUM";
+    const json made = report();
+    const std::string reason = "the baseline b2f is failed: rendering b2f: GL_INVALID_ENUM";
+    EXPECT_EQ(made["runs"][0]["results"][1]["speedup_reason"], reason);
+    EXPECT_EQ(made["runs"][0]["results"][0]["speedup_reason"], "rendering b2f: GL_INVALID_ENUM");
+    EXPECT_EQ(made["checks"][0]["passed"], false);
+    EXPECT_EQ(made["checks"][0]["reason"], reason);
+    EXPECT_FALSE(report()["runs"][0]["results"][1]["timing"].is_null());
+}
+
+TEST_F(ReportFixture, AFailedReferenceIsToldAndHasNoPicture) {
+    runs[0].reference_status = "failed";
+    runs[0].reference_reason = "rendering the reference exact: GL_OUT_OF_MEMORY";
+    runs[0].reference_image = {};
+    for (MethodResult& result : runs[0].results) {
+        result.metrics.reset();
+        result.no_metrics_reason = "the reference exact is failed";
+    }
+    const json made = report();
+    EXPECT_EQ(made["runs"][0]["reference"]["status"], "failed");
+    EXPECT_EQ(made["runs"][0]["reference"]["reason"], runs[0].reference_reason);
+    EXPECT_TRUE(made["runs"][0]["reference"]["images"].empty());
+    EXPECT_EQ(made["checks"][1]["reason"], "the reference exact is failed");
+    EXPECT_THAT(made["verdict_reason"].get<std::string>(),
+                HasSubstr("the reference exact failed: rendering the reference exact: GL_OUT_OF_MEMORY"));
 }
 
 TEST_F(ReportFixture, IntervalsAreCorrectedForTheNumberOfMethods) {
@@ -255,6 +363,9 @@ TEST_F(ReportFixture, ChecksHoldTheirLimits) {
     EXPECT_EQ(made["checks"][2]["passed"], true) << "identical pictures pass any least PSNR";
     EXPECT_EQ(made["checks"][3]["passed"], false) << "what was not measured passes nothing";
     EXPECT_TRUE(made["checks"][3]["value"].is_null());
+    EXPECT_EQ(made["checks"][3]["reason"], "unsupported: no <barrier>");
+    EXPECT_TRUE(made["checks"][0]["reason"].is_null());
+    EXPECT_EQ(made["verdict_reason"], "1 of 4 checks failed");
     EXPECT_EQ(made["verdict"], "failed");
 }
 
@@ -327,7 +438,7 @@ TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
     EXPECT_THAT(table, HasSubstr("6 of 10 rounds, ended by max_seconds."));
     EXPECT_THAT(table, HasSubstr("Noise floor, b2f against itself: 0.95x [0.95, 0.95]."));
     EXPECT_THAT(table, HasSubstr("f2bx      unsupported: no <barrier>"));
-    EXPECT_THAT(table, HasSubstr("FAILED  rmse of f2bx is not measured, at most 1\n"));
+    EXPECT_THAT(table, HasSubstr("FAILED  rmse of f2bx is not measured, at most 1: unsupported: no <barrier>\n"));
     EXPECT_THAT(table, HasSubstr("do not predict"));
 }
 

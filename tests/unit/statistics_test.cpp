@@ -94,9 +94,20 @@ TEST(Verdict, NeedsAnIntervalBesideOneAndBeyondTheNoise) {
     EXPECT_EQ(judge_speedup(slower, 1, NoiseFloor{1, {}, 2}).verdict, Verdict::not_resolved);
 
     // Two methods allow 2.5 % each, less than the 2 / 2^6 = 3.1 % of six rounds.
-    EXPECT_EQ(judge_speedup(faster, 2, std::nullopt).reason, "too few rounds for an interval");
+    EXPECT_EQ(judge_speedup(faster, 2, std::nullopt).reason, "too few rounds: 6, needs 7");
     EXPECT_EQ(judge_speedup({0.9, 1.2, 1.2, 1.2, 1.2, 1.2}, 1, std::nullopt).reason, "the interval holds 1");
     EXPECT_EQ(judge_speedup({1, 1, 1, 1, 1, 1}, 1, std::nullopt).verdict, Verdict::not_resolved);
+}
+
+TEST(Verdict, RoundsNeededAreTheFewestWithAnInterval) {
+    // 2 / 2^n at most 5 % of `compared`.
+    const std::pair<std::size_t, std::size_t> by_hand[] = {{1, 6}, {2, 7}, {3, 7}, {4, 8}, {6, 8}, {7, 9}, {25, 10}};
+    for (const auto& [compared, rounds] : by_hand) EXPECT_EQ(rounds_needed(compared), rounds) << compared;
+    for (std::size_t compared = 1; compared < 40; ++compared) {
+        const std::size_t rounds = rounds_needed(compared);
+        EXPECT_TRUE(judge_speedup(std::vector(rounds, 2.0), compared, {}).ci95.has_value()) << compared;
+        EXPECT_FALSE(judge_speedup(std::vector(rounds - 1, 2.0), compared, {}).ci95.has_value()) << compared;
+    }
 }
 
 /// One way in which frame times scatter: the time of a frame of `round` whose true time is 1.

@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "renderer/report/frontier.h"
 #include "renderer/report/measured.h"
+#include "renderer/report/statistics.h"
 #include "renderer/report/suite.h"
 #include "renderer/spec/spec.h"
 
@@ -157,29 +160,106 @@ TEST(SuiteReport, RangeHoldsForWholeIntervals) {
     EXPECT_EQ(verdict(trend("within", {"f2bd"}, {{"range", {0, 1}}})), "fails");
 }
 
+/// A method that takes `times` in ms, its speedup as Timings would judge it against a baseline of `base`.
+json timed(const std::string& label, const std::vector<double>& times, double error,
+           const std::vector<double>& base = {100, 101, 102, 103, 104, 105, 106, 107, 108, 109}) {
+    const Speedup judged = judge_speedup(paired_ratios(base, times), 4, NoiseFloor{1, {}, 1.05});
+    return {{"label", label},
+            {"status", "ok"},
+            {"speedup",
+             {{"value", judged.value},
+              {"ci95", judged.ci95 ? json{judged.ci95->first, judged.ci95->second} : json()},
+              {"verdict", verdict_name(judged.verdict)},
+              {"compared", 4}}},
+            {"timing", {{"median", median(times)}, {"samples", times}, {"ci95", nullptr}}},
+            {"metrics", {{"flip", {{"mean", error}}}}}};
+}
+
+/// The baseline's times, each divided by its round's speed.
+std::vector<double> at_speeds(const std::vector<double>& speeds) {
+    std::vector<double> times;
+    for (std::size_t i = 0; i < speeds.size(); ++i) times.push_back((100 + static_cast<double>(i)) / speeds[i]);
+    return times;
+}
+std::vector<double> at_speed(double speed) {
+    return at_speeds(std::vector(10, speed));
+}
+/// 1 within its interval.
+const std::vector<double> as_fast = at_speeds({0.9, 1.1, 0.92, 1.12, 0.95, 1.08, 0.97, 1.2, 0.99, 1.01});
+
+json timed_run(const json& results, int rounds = 10) {
+    json all = run(json::object(), results);
+    all["noise_floor"] = {{"factor", 1.05}};
+    all["rounds"] = {{"asked", rounds}, {"done", rounds}, {"needed", 8}};
+    return all;
+}
+
 TEST(Frontier, NamesWhatIsDominatedAndByWhom) {
-    const json measured_run = run(
-        json::object(), json::array({result("b2f", 1, 1, 1, 100, 0.0), result("f2b", 1, 1, 1, 110, 0.0),
-                                     result("f2bd", 4, 3.5, 4.5, 25, 0.004), result("f2bd 0.5", 5, 4.5, 5.5, 20, 0.2),
-                                     result("meshkin", 3, 2.5, 3.5, 30, 0.3)}));
-    const json answer = frontier(measured_run, "b2f");
+    const json answer = frontier(
+        timed_run({timed("b2f", at_speed(1), 0.0), timed("f2b", as_fast, 0.002), timed("f2bd", at_speed(4), 0.004),
+                   timed("f2bd 0.5", at_speed(5), 0.2), timed("meshkin", at_speed(3), 0.3)}),
+        "b2f");
     EXPECT_EQ(answer["methods"], json({"f2bd 0.5", "f2bd", "b2f"}));
     ASSERT_EQ(answer["dominated"].size(), 2u);
-    EXPECT_EQ(answer["dominated"][0], json({{"method", "meshkin"}, {"by", "f2bd 0.5"}}));
-    EXPECT_EQ(answer["dominated"][1], json({{"method", "f2b"}, {"by", "b2f"}}));
-    EXPECT_EQ(answer["fastest_under"], json::array({{{"error", 0.001}, {"method", "b2f"}},
-                                                    {{"error", 0.01}, {"method", "f2bd"}},
-                                                    {{"error", 0.05}, {"method", "f2bd"}}}));
-    EXPECT_EQ(answer["closest_within"], json::array({{{"time_ms", 100.0}, {"method", "b2f"}},
-                                                     {{"time_ms", 50.0}, {"method", "f2bd"}},
-                                                     {{"time_ms", 25.0}, {"method", "f2bd"}}}));
-    EXPECT_THAT(answer["sentences"][1], HasSubstr("f2bd with an error of 0.004 in 25 ms"));
-    EXPECT_THAT(answer["sentences"][1], HasSubstr("[3.50, 4.50]"));
+    EXPECT_EQ(answer["dominated"][0]["method"], "meshkin");
+    EXPECT_EQ(answer["dominated"][0]["by"], "f2bd 0.5");
+    EXPECT_EQ(answer["dominated"][0]["reason"], "f2bd 0.5 is resolved faster and no farther from the reference");
+    EXPECT_EQ(answer["dominated"][1]["method"], "f2b");
+    EXPECT_EQ(answer["dominated"][1]["reason"], "b2f is nearer to the reference, and f2b is not resolved faster");
+    EXPECT_EQ(answer["fastest"], json({"f2bd 0.5"}));
+    EXPECT_EQ(answer["fastest_under"], json::array({{{"error", 0.001}, {"method", nullptr}, {"tied", json::array()}},
+                                                    {{"error", 0.01}, {"method", "f2bd"}, {"tied", json::array()}},
+                                                    {{"error", 0.05}, {"method", "f2bd"}, {"tied", json::array()}}}));
+    EXPECT_EQ(answer["closest_within"], json::array({{{"speed", 1.0}, {"method", "b2f"}, {"tied", json::array()}},
+                                                     {{"speed", 2.0}, {"method", "f2bd"}, {"tied", json::array()}},
+                                                     {{"speed", 4.0}, {"method", "f2bd"}, {"tied", json::array()}}}));
+    EXPECT_THAT(answer["sentences"][0], HasSubstr("Under a mean FLIP error of 0.001 there is only b2f"));
+    EXPECT_THAT(answer["sentences"][1],
+                HasSubstr("Fastest under a mean FLIP error of 0.01: f2bd with an error of 0.004"));
+    EXPECT_THAT(answer["sentences"][1], HasSubstr("[4.00, 4.00]"));
+}
+
+TEST(Frontier, CallsNothingFastestThatIsNotResolved) {
+    const json answer = frontier(timed_run({timed("b2f", at_speed(1), 0.002), timed("f2b", as_fast, 0.004)}), "b2f");
+    EXPECT_TRUE(answer["fastest"].empty());
+    EXPECT_TRUE(answer["fastest_under"][0]["method"].is_null());
+    for (const json& sentence : answer["sentences"])
+        EXPECT_EQ(sentence.get<std::string>().find("Fastest"), std::string::npos) << sentence;
+    EXPECT_THAT(answer["sentences"][0],
+                HasSubstr("Under a mean FLIP error of 0.01 no method is resolved faster than b2f."));
+
+    // Four hundredths faster with an interval beside 1, but two instances of the baseline differ by more.
+    const json noise = frontier(timed_run({timed("b2f", at_speed(1), 0.0), timed("f2b", at_speed(1.04), 0.0)}), "b2f");
+    EXPECT_TRUE(noise["fastest"].empty());
+    EXPECT_TRUE(noise["dominated"].empty());
+}
+
+TEST(Frontier, TwoThatAreNotResolvedFromEachOtherAreFastestTogether) {
+    // Both are twice as fast; round by round now one leads and now the other.
+    const auto first = at_speeds({2, 2.2, 1.9, 2.1, 2.3, 1.8, 2, 2.2, 1.9, 2.1});
+    const auto second = at_speeds({2.2, 2, 2.1, 1.9, 2, 2.2, 2.3, 1.8, 2.1, 1.9});
+    const json answer = frontier(
+        timed_run({timed("b2f", at_speed(1), 0.0), timed("x", first, 0.004), timed("y", second, 0.0041)}), "b2f");
+    EXPECT_EQ(std::set<std::string>(answer["fastest"].begin(), answer["fastest"].end()),
+              (std::set<std::string>{"x", "y"}));
+    EXPECT_EQ(answer["fastest_under"][1]["tied"].size(), 1u);
+    EXPECT_THAT(answer["sentences"][1], HasSubstr("; not resolved from it: "));
+}
+
+TEST(Frontier, TooFewRoundsAreSaidAndResolveNothing) {
+    const std::vector<double> base = {100, 101, 102};
+    const json answer =
+        frontier(timed_run({timed("b2f", base, 0.0, base), timed("f2bd", {10, 10, 10}, 0.004, base)}, 3), "b2f");
+    EXPECT_EQ(answer["sentences"], json::array({"No time is resolved, too few rounds: 3, needs 8."}));
+    EXPECT_TRUE(answer["fastest"].empty());
 }
 
 TEST(Frontier, EqualsDoNotDominateEachOther) {
-    const json twins = run(json::object(), json::array({result("a", 1, 1, 1, 10, 0.1), result("b", 1, 1, 1, 10, 0.1)}));
+    const json twins = timed_run({timed("a", at_speed(1), 0.1), timed("b", at_speed(1), 0.1)});
     EXPECT_EQ(frontier(twins, "a")["methods"], json({"a", "b"}));
+    // Apart in a digit that is not shown.
+    const json near_twins = timed_run({timed("a", at_speed(1), 0.1001), timed("b", at_speed(1), 0.1002)});
+    EXPECT_EQ(frontier(near_twins, "a")["methods"], json({"a", "b"}));
 }
 
 TEST(Frontier, NeedsTwoMethodsWithTimeAndError) {

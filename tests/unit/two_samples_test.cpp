@@ -61,9 +61,10 @@ TEST(JudgeTwoSamples, HoldsIntervalAndNoise) {
     EXPECT_EQ(judge_two_samples(fast, slow, 1, 1).verdict, Verdict::slower);
     EXPECT_EQ(judge_two_samples(slow, slow, 1, 1).verdict, Verdict::not_resolved);
     EXPECT_EQ(judge_two_samples(slow, fast, 1, 1.4).reason, "inside the noise floor");
-    // The extreme order of 6 and 6 has the probability 1 / 924: 1 / 462 at both ends, too much for 5 % of 100.
+    // The extreme order of 6 and 6 has the probability 1 / 924: 1 / 462 at both ends, too much for 5 % of 100. So has
+    // that of 7 and 7 with 1 / 3432; that of 8 and 8 has 1 / 12870.
     EXPECT_EQ(judge_two_samples(slow, fast, 20, 1).verdict, Verdict::faster);
-    EXPECT_EQ(judge_two_samples(slow, fast, 100, 1).reason, "too few rounds for an interval");
+    EXPECT_EQ(judge_two_samples(slow, fast, 100, 1).reason, "too few rounds: 6 and 6, needs 8 in both reports");
 }
 
 /// Times around 10 ms, skewed and with a heavy tail.

@@ -208,6 +208,7 @@ SceneInfo scene_gltf() {
         .check = check_camera,
         .build = build_gltf,
         .asset_field = "model",
+        .transparent = "triangles of a material that blends (alphaMode BLEND)",
     };
 }
 

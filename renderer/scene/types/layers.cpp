@@ -44,6 +44,7 @@ SceneInfo scene_layers() {
              Param::boolean("opaque", "drawn without blending, with depth writes, before the transparent ones", false)},
             1, max_layers)},
         .build = build_layers,
+        .transparent = "layers but opaque ones",
     };
 }
 
