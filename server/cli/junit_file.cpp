@@ -1,6 +1,7 @@
 #include "server/cli/junit_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <string_view>
@@ -38,8 +39,10 @@ JunitFile::JunitFile(const std::string& file, const fs::path& spec, const fs::pa
     const fs::path folder = m_file.parent_path();
     if (!out.empty() && !folder.empty() && lies_in(folder, out)) fs::create_directories(folder, error);
     const bool is_plain = !fs::exists(m_file, error) || fs::is_regular_file(m_file, error);
-    if (!std::ofstream(m_file, std::ios::binary | std::ios::app)) throw UsageError("cannot write " + file);
-    // What goes into a pipe cannot be taken back.
+    // What goes into a pipe cannot be taken back, and opening one may wait for its reader.
+    const bool is_writable = is_plain ? bool(std::ofstream(m_file, std::ios::binary | std::ios::app))
+                                      : !fs::is_directory(m_file, error) && access(m_file.c_str(), W_OK) == 0;
+    if (!is_writable) throw UsageError("cannot write " + file);
     if (is_plain) write_error("The comparison did not end", "Nothing was written after it had begun.");
 }
 
