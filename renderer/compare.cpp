@@ -72,6 +72,7 @@ class Comparer {
         render_reference(scene);
         Target target(m_context.gl(), m_spec.image, m_spec.image.format);
         look_for_something(scene, geometry, target);
+        for (const MethodSpec& method : m_spec.methods) check_loops_of(method, m_context, scene, target, m_timer);
         make_methods(scene, target);
         prepare_sorting(geometry);
         time_methods();

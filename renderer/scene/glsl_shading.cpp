@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "renderer/scene/glsl_limits.h"
+
 namespace sheer {
 
 namespace {
@@ -17,10 +19,6 @@ namespace {
 /// source string number of #line, which is meant for it.)
 constexpr int first_user_line = 100000;
 constexpr std::size_t max_messages = 10;
-
-bool is_name_part(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
 
 /// \r\n, \r and \n each end a line; here they all become \n.
 std::string checked_text(const std::string& body) {
@@ -85,68 +83,32 @@ class CommentRemover {
     std::string m_result;
 };
 
-struct Token {
-    std::string_view text;
-    std::size_t begin;
-    int line;
-    std::size_t partner = 0;  ///< of a bracket: the token that closes or opens it
-    bool is_name() const { return is_name_part(text[0]) && std::isdigit(static_cast<unsigned char>(text[0])) == 0; }
-};
-
-/// Names, numbers, and single characters of anything else. The letters within a number are no names.
-std::vector<Token> tokens_of(std::string_view text) {
-    std::vector<Token> tokens;
-    int line = 1;
-    for (std::size_t at = 0; at < text.size();) {
-        if (text[at] == '\n') ++line;
-        if (text[at] == ' ' || text[at] == '\t' || text[at] == '\n') {
-            ++at;
-            continue;
-        }
-        std::size_t end = at + 1;
-        const bool number = std::isdigit(static_cast<unsigned char>(text[at])) != 0;
-        while (is_name_part(text[at]) && end < text.size() && (is_name_part(text[end]) || (number && text[end] == '.')))
-            ++end;
-        tokens.push_back({text.substr(at, end - at), at, line});
-        at = end;
-    }
-    return tokens;
-}
-
-void pair_brackets(std::vector<Token>& tokens) {
-    constexpr std::string_view opening = "([{", closing = ")]}";
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < tokens.size(); ++i) {
-        const char c = tokens[i].text[0];
-        if (opening.find(c) != std::string_view::npos) open.push_back(i);
-        const std::size_t kind = closing.find(c);
-        if (kind == std::string_view::npos) continue;
-        if (open.empty()) throw GlslError(tokens[i].line, fmt::format("has a {} that closes nothing", c));
-        if (tokens[open.back()].text[0] != opening[kind])
-            throw GlslError(tokens[i].line, fmt::format("has a {} where the {} of line {} is still open", c,
-                                                        tokens[open.back()].text, tokens[open.back()].line));
-        tokens[i].partner = open.back();
-        tokens[open.back()].partner = i;
-        open.pop_back();
-    }
-    if (!open.empty())
-        throw GlslError(tokens[open.back()].line, fmt::format("has a {} that is not closed", tokens[open.back()].text));
+/// The samples of a pixel, and the numbers that a fragment's primitive has, depend on how a method draws.
+bool is_same_for_all(std::string_view built_in) {
+    return built_in == "gl_FragCoord" || built_in == "gl_FrontFacing" || built_in.starts_with("gl_Max") ||
+           built_in.starts_with("gl_Min");
 }
 
 /// Names that would reach around the rules: the methods decide what becomes of a fragment, and the counter counts.
-void check_name(const Token& token) {
+void check_name(const GlslToken& token) {
     struct Refused {
         std::string_view name, why;
     };
-    static constexpr std::array<Refused, 5> refused = {{
+    static constexpr std::array<Refused, 7> refused = {{
         {"discard", "is left to the methods; return an alpha of 0 instead"},
         {"gl_FragDepth", "is left to the methods"},
-        {"gl_SampleMask", "is left to the methods"},
+        {"interpolateAtSample", "means something else for each number of samples"},
+        {"interpolateAtCentroid", "means something else for each number of samples"},
+        {"interpolateAtOffset", "means something else for each number of samples"},
         {"begin_fragment", "is called before the function"},
         {"real_work", "is this function, and GLSL has no recursion"},
     }};
     const auto* found = std::ranges::find(refused, token.text, &Refused::name);
     if (found != refused.end()) throw GlslError(token.line, fmt::format("has {}, which {}", token.text, found->why));
+    if (token.text.starts_with("gl_") && !is_same_for_all(token.text))
+        throw GlslError(token.line, fmt::format("has {}, which is not the same for every method; gl_FragCoord and "
+                                                "gl_FrontFacing may be read",
+                                                token.text));
     if (token.text.starts_with("sheer_") || token.text.starts_with("SHEER_"))
         throw GlslError(token.line, fmt::format("has {}; names that begin so are taken", token.text));
 }
@@ -154,15 +116,15 @@ void check_name(const Token& token) {
 /// Puts `&& sheer_next()` behind the condition of every loop.
 class LoopCounter {
   public:
-    LoopCounter(std::string text, std::vector<Token> tokens) : m_text(std::move(text)), m_tokens(std::move(tokens)) {}
+    LoopCounter(std::string text, std::vector<GlslToken> tokens)
+        : m_text(std::move(text)), m_tokens(std::move(tokens)) {}
 
     std::string run() {
         for (std::size_t i = 0; i < m_tokens.size(); ++i) {
             if (m_tokens[i].text == "for") count_for(i);
             if (m_tokens[i].text == "while") count_condition(i, parenthesis(i), m_tokens[parenthesis(i)].partner);
         }
-        m_result += m_text.substr(m_copied);
-        return std::move(m_result);
+        return edited(m_text, std::move(m_edits));
     }
 
   private:
@@ -193,16 +155,11 @@ class LoopCounter {
         insert(m_tokens[after].begin, always ? "" : ") && sheer_next()");
     }
 
-    void insert(std::size_t at, std::string_view text) {
-        m_result += m_text.substr(m_copied, at - m_copied);
-        m_result += text;
-        m_copied = at;
-    }
+    void insert(std::size_t at, std::string text) { m_edits.push_back({at, 0, std::move(text)}); }
 
     std::string m_text;
-    std::vector<Token> m_tokens;
-    std::string m_result;
-    std::size_t m_copied = 0;
+    std::vector<GlslToken> m_tokens;  ///< of the text that `m_text` is a copy of
+    std::vector<TextEdit> m_edits;
 };
 
 /// What a driver says of line `line` of the user's function; false if the line of the log is about something else.
@@ -223,22 +180,18 @@ bool read_log_line(const std::string& text, int& line, std::string& message) {
 
 }  // namespace
 
-GlslError::GlslError(int line, const std::string& detail)
-    : std::runtime_error(fmt::format("line {} {}", line, detail)) {}
-
 GlslShading make_glsl_shading(const std::string& body) {
-    const std::string text = CommentRemover(checked_text(body)).run();
-    std::vector<Token> tokens = tokens_of(text);
-    pair_brackets(tokens);
+    const std::string uncommented = CommentRemover(checked_text(body)).run();
     GlslShading shading;
-    for (const Token& token : tokens) {
+    for (const GlslToken& token : read_glsl_tokens(uncommented)) {
         check_name(token);
         shading.has_loops |= token.text == "for" || token.text == "while";
         shading.is_textured |= token.text == "sample_texture";
     }
+    const std::string text = guard_glsl(uncommented);
     // On the user's own lines, so that no error can lie before the first or behind the last one.
     shading.function = fmt::format("#line {}\nvec4 sheer_own_work(vec2 uv, vec4 tint) {{ {} }}\n#line 1\n",
-                                   first_user_line, LoopCounter(text, std::move(tokens)).run());
+                                   first_user_line, LoopCounter(text, read_glsl_tokens(text)).run());
     return shading;
 }
 

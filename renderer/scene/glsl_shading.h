@@ -1,10 +1,10 @@
 #pragma once
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "renderer/errors.h"
+#include "renderer/scene/glsl_tokens.h"
 
 namespace sheer {
 
@@ -17,12 +17,6 @@ inline constexpr std::size_t max_glsl_bytes = 64 * 1024;
 /// without a word, after 65,535 iterations of eight fragments that run in step.
 inline constexpr int iterations_per_fragment = 4096;
 
-/// The text cannot be the body of a function; says the line and what is wrong with it.
-class GlslError : public std::runtime_error {
-  public:
-    GlslError(int line, const std::string& detail);
-};
-
 /// The user's own shading, which shaders/scenes/glsl_shading.glsl makes a real_work of.
 struct GlslShading {
     std::string function;      ///< GLSL of `vec4 sheer_own_work(vec2 uv, vec4 tint)`
@@ -30,7 +24,8 @@ struct GlslShading {
     bool is_textured = false;  ///< it names sample_texture
 };
 
-/// Makes the function from its body: printable ASCII without directives, brackets in pairs. Throws GlslError.
+/// Makes the function from its body: printable ASCII without directives, brackets in pairs, and within the
+/// limits of renderer/scene/glsl_limits.h. Throws GlslError.
 GlslShading make_glsl_shading(const std::string& body);
 
 /// Adds the error of a normalised scene whose shading is GLSL that make_glsl_shading refuses.

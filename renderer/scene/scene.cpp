@@ -59,10 +59,23 @@ void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry)
     });
 }
 
+bool has_one_tint_a_triangle(const Geometry& geometry) {
+    const auto tint = [&](std::size_t i) -> const glm::vec4& { return geometry.vertices[geometry.indices[i]].tint; };
+    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3)
+        if (tint(i) != tint(i + 1) || tint(i) != tint(i + 2)) return false;
+    return true;
+}
+
 }  // namespace
 
 Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters)
-    : m_gl(gl), m_parallel(geometry.parallel), m_view_projection(geometry.view_projection) {
+    : m_gl(gl),
+      m_parallel(geometry.parallel),
+      m_flat_tint(has_one_tint_a_triangle(geometry)),
+      m_alpha_is_given(m_flat_tint && parameters.at("shading") == "constant"),
+      m_view_projection(geometry.view_projection) {
+    m_vertex_source =
+        glsl_version + define("SHEER_FLAT_TINT", m_flat_tint) + std::string(gl::shader_file("scenes/scene.vert.glsl"));
     make_shading(geometry, parameters);
     make_materials(geometry);
 
@@ -128,7 +141,7 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
 }
 
 void Scene::make_shading(const Geometry& geometry, const nlohmann::json& parameters) {
-    m_shading_source = gl::shader_file("scenes/inputs.glsl");
+    m_shading_source = define("SHEER_FLAT_TINT", m_flat_tint) + std::string(gl::shader_file("scenes/inputs.glsl"));
     m_shading_source += define(
         "SHEER_MASKED",
         std::ranges::any_of(geometry.materials, [](const SurfaceMaterial& material) { return material.cutoff > 0; }));
@@ -230,10 +243,11 @@ void Scene::fill_painted_layer(GLint layer, const std::vector<TextureLevel>& lev
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
                                 const std::string& prolog) const {
-    const std::string fragment = glsl_version + prolog + m_shading_source +
+    const std::string report = m_reports_loops ? define("SHEER_REPORT_LOOPS", loop_report_binding) : "";
+    const std::string fragment = glsl_version + prolog + report + m_shading_source +
                                  std::string(gl::shader_file("scenes/count_shaded.glsl")) + std::string(method_source);
     try {
-        return gl::Program(m_gl, label, gl::shader_file("scenes/scene.vert.glsl"), fragment);
+        return gl::Program(m_gl, label, m_vertex_source, fragment);
     } catch (const RenderError& error) {
         const std::string messages = user_messages(error.what());
         if (messages.empty()) throw;
@@ -252,6 +266,11 @@ void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
     if (m_materials) m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, materials_binding, m_materials.id());
     for (std::size_t array = 0; array < m_pictures.size(); ++array)
         m_gl.BindTextureUnit(pictures_unit + static_cast<GLuint>(array), m_pictures[array].id());
+}
+
+float Scene::least_alpha(double reference) const {
+    constexpr double rounding = 0x1p-12;
+    return static_cast<float>(m_alpha_is_given ? reference : reference - rounding);
 }
 
 std::size_t Scene::triangle_count(Order order, std::size_t first, std::size_t count) const {

@@ -34,6 +34,11 @@ class Scene {
     std::uint32_t primitive_at(Order order, std::size_t place) const { return list(order).primitives[place]; }
     bool has_opaque() const { return m_opaque_index_count > 0; }
 
+    /// The alpha from which on a fragment has at least the alpha `reference`. The same where alphas reach the fragments
+    /// as they were given; a little less where they are read from textures or interpolated, which rounds them: by
+    /// 2^-12, which is half of what a half float of 0.5 to 1 can tell apart and a sixteenth of a level of 8 bits.
+    float least_alpha(double reference) const;
+
     /// A program that draws this scene: its vertex stage, `real_work(vec2 uv, vec4 tint)`, then `method_source` with
     /// main(). `prolog` comes right after #version: #extension and #define lines.
     /// main() sees what is in shaders/scenes/inputs.glsl; where it asks for a uniform int u_first_triangle, this plus
@@ -45,6 +50,9 @@ class Scene {
     /// Whether the shading is the user's own and has loops, which count their iterations.
     /// (renderer/frame/loop_check.h.)
     bool counts_iterations() const { return m_counts_iterations; }
+    /// While it is on, programs are made that set the first word of the storage buffer at loop_report_binding to 1
+    /// where an iteration is refused. They are not fit for timing.
+    void report_loops(bool on) { m_reports_loops = on; }
 
     /// Draws with `program` (of make_program) in use; binds the vertex array and texture unit 0.
     void draw_opaque(const gl::Program& program) const;
@@ -78,9 +86,12 @@ class Scene {
     const gl::Functions& m_gl;
     DrawObserver* m_observer = nullptr;
     bool m_parallel;
+    bool m_flat_tint;       ///< every triangle has one tint
+    bool m_alpha_is_given;  ///< and its alpha is that of all its fragments
     glm::mat4 m_view_projection;
+    std::string m_vertex_source;
     std::string m_shading_source;  ///< GLSL with inputs and real_work
-    bool m_counts_iterations = false;
+    bool m_counts_iterations = false, m_reports_loops = false;
     std::size_t m_transparent_count = 0;
     GLsizei m_opaque_index_count = 0;
     gl::Buffer m_vertices;
@@ -97,6 +108,8 @@ class Scene {
 
 /// First texture unit that methods may use.
 inline constexpr GLuint first_method_texture_unit = 8;
+
+inline constexpr GLuint loop_report_binding = 7;
 
 /// Begins every fragment shader.
 inline constexpr const char* glsl_version = "#version 450 core\n";

@@ -4,8 +4,16 @@
 // a pass that is not timed finds the fragments that were refused (renderer/frame/loop_check.h).
 int sheer_iterations_left = 0;  // under 0 once an iteration was refused
 
+#ifdef SHEER_REPORT_LOOPS
+// Set where a method is drawn once to see whether all of its own fragments, at its own samples, end their loops.
+layout(std430, binding = SHEER_REPORT_LOOPS) buffer SheerRefused { uint sheer_any_refused; };
+#endif
+
 bool sheer_next() {
     --sheer_iterations_left;
+#ifdef SHEER_REPORT_LOOPS
+    if (sheer_iterations_left < 0) sheer_any_refused = 1u;
+#endif
     return sheer_iterations_left >= 0;
 }
 
@@ -27,6 +35,42 @@ void begin_fragment() {
     sheer_level_of_detail = 0.5 * log2(max(dot(dx, dx), dot(dy, dy))) + log2(float(textureSize(u_textures, 0).x));
 #endif
 }
+
+// An integer division of the least number by -1 has no result, and some drivers die of it. The user's a / b, whatever
+// its type, is a * sheer_sign(b) / sheer_magnitude(b), which is the same and never divides an integer by -1.
+#define SHEER_DIVISOR(T, ONE)                   \
+    T sheer_magnitude(T by) { return by; }      \
+    ONE sheer_sign(T by) { return ONE(1); }
+#define SHEER_DIVISOR_OF_INTEGERS(T)                                                       \
+    T sheer_magnitude(T by) { return mix(by, T(1), equal(by, T(-1))); }                    \
+    T sheer_sign(T by) { return mix(T(1), T(-1), equal(by, T(-1))); }
+
+int sheer_magnitude(int by) { return by == -1 ? 1 : by; }
+int sheer_sign(int by) { return by == -1 ? -1 : 1; }
+SHEER_DIVISOR_OF_INTEGERS(ivec2)
+SHEER_DIVISOR_OF_INTEGERS(ivec3)
+SHEER_DIVISOR_OF_INTEGERS(ivec4)
+SHEER_DIVISOR(uint, uint)
+SHEER_DIVISOR(uvec2, uint)
+SHEER_DIVISOR(uvec3, uint)
+SHEER_DIVISOR(uvec4, uint)
+SHEER_DIVISOR(float, float)
+SHEER_DIVISOR(vec2, float)
+SHEER_DIVISOR(vec3, float)
+SHEER_DIVISOR(vec4, float)
+SHEER_DIVISOR(mat2, float)
+SHEER_DIVISOR(mat3, float)
+SHEER_DIVISOR(mat4, float)
+SHEER_DIVISOR(mat2x3, float)
+SHEER_DIVISOR(mat2x4, float)
+SHEER_DIVISOR(mat3x2, float)
+SHEER_DIVISOR(mat3x4, float)
+SHEER_DIVISOR(mat4x2, float)
+SHEER_DIVISOR(mat4x3, float)
+SHEER_DIVISOR(double, double)
+SHEER_DIVISOR(dvec2, double)
+SHEER_DIVISOR(dvec3, double)
+SHEER_DIVISOR(dvec4, double)
 
 // The user's function follows.
 vec4 sheer_own_work(vec2 uv, vec4 tint);

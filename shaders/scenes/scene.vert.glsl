@@ -1,4 +1,4 @@
-#version 450 core
+// Set before: SHEER_FLAT_TINT, see inputs.glsl.
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec2 a_uv;
 layout(location = 2) in vec4 a_tint;
@@ -10,6 +10,9 @@ uniform mat4 u_view_projection;
 
 out vec3 v_position;
 out vec2 v_uv;
+#if SHEER_FLAT_TINT
+flat
+#endif
 out vec4 v_tint;
 flat out uint v_primitive;
 flat out uint v_material;

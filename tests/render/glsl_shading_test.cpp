@@ -146,6 +146,85 @@ TEST(GlslShading, TheLoopsOfAFragmentShareItsIterations) {
     EXPECT_THAT(error_of(twice(iterations_per_fragment - 1000, 1001)), testing::HasSubstr("4096 iterations"));
 }
 
+/// Runs a whole comparison; the error it ends with, or "".
+std::string error_of_comparison(const json& scene, const json& methods) {
+    const auto context = make_context("egl");
+    const Spec spec = parse_spec({{"scene", scene},
+                                  {"methods", methods},
+                                  {"image", {{"width", size_px}, {"height", size_px}}},
+                                  {"timing", {{"rounds", 1}, {"warmup", 1}}}});
+    NoAssets assets;
+    try {
+        compare(
+            spec, *context, assets, [](double, const std::string&) {}, [](const sheer::Run&) {});
+    } catch (const SpecError& error) {
+        EXPECT_EQ(error.errors().at(0).pointer, "/scene/shading/glsl");
+        return error.errors().at(0).detail;
+    }
+    return "";
+}
+
+/// With several samples the edge of a rectangle at 8.2 pixels shades pixel 8 at its middle, where uv.x is over 1, and
+/// with a cap a coarse picture shades yet other places. Only there the loop does not end.
+TEST(GlslShading, LoopsAreCheckedInEveryMethod) {
+    const auto scene_with = [](const std::string& condition, bool opaque) {
+        return json{
+            {"type", "layers"},
+            {"shading", own("float x = 0.0;\nwhile (" + condition + ") x += 1e-12;\nreturn vec4(x, tint.gba);")},
+            {"layers",
+             {{{"rect", {0, 0, 8.2 / size_px, 1}},
+               {"depth", 0.5},
+               {"color", {1, 1, 1}},
+               {"alpha", 1},
+               {"opaque", opaque}}}}};
+    };
+    const json several = {"b2f", "alpha_to_coverage"};
+    EXPECT_THAT(error_of_comparison(scene_with("uv.x > 1.0", false), several),
+                testing::HasSubstr("where alpha_to_coverage draws it"));
+    EXPECT_EQ(error_of_comparison(scene_with("uv.x > 1.0", false), {"b2f", "f2b", "exact"}), "");
+    EXPECT_EQ(error_of_comparison(scene_with("uv.x > 1.5", false), several), "");
+    EXPECT_THAT(error_of_comparison(scene_with("x < 1.0", false), {"b2f"}), testing::HasSubstr("4096 iterations"));
+    // The middles of the coarse picture's pixels lie at whole numbers.
+    const std::string coarse =
+        "fract(gl_FragCoord.x) == 0.5 && gl_FragCoord.y < 8.0 && abs(fract(uv.y * 8.0) - 0.5) < 0.05";
+    const json cap = {{"id", "stencil_cap"}, {"zcull", true}, {"frames", 1}};
+    EXPECT_THAT(error_of_comparison(scene_with(coarse, false), json::array({cap})), testing::HasSubstr("stencil_cap"));
+}
+
+/// A guarded division gives what an unguarded one does, of every type and sign, and the least integer by -1 is itself,
+/// constant or not. The picture holds whether all of that is so.
+TEST(GlslShading, DivisionsAreThoseOfTheLanguage) {
+    const std::string body =
+        "int least = -2147483647 - 1, minus = -1, five = 5, two = -2;\n"
+        "int late = int(gl_FragCoord.x * 0.0) - 1;\n"
+        "bool ok = least / minus == least && least % minus == 0 && least / late == least && five / minus == -5;\n"
+        "ok = ok && five / two == -2 && five * 3 / two * 2 == -14 && (ivec2(7, least) / ivec2(2, minus)) == ivec2(3, "
+        "least);\n"
+        "ok = ok && 9u / uint(five) == 1u && 7u % uint(five) == 2u && float(five) / tint.a == 5.0 / tint.a;\n"
+        "vec3 v = vec3(1.0, 2.0, 4.0); mat2 m = mat2(2.0, 4.0, 6.0, 8.0);\n"
+        "ok = ok && v / five == v / 5.0 && v / v == vec3(1.0) && (m / 2.0)[1] == vec2(3.0, 4.0) && m / m == mat2(1.0, "
+        "1.0, 1.0, 1.0);\n"
+        "ok = ok && double(five) / double(2.0) == double(2.5) && 1 / tint.a == 1.0 / tint.a;\n"
+        "least /= minus; five /= two; v.y /= 4.0; v.xz /= v.z;\n"
+        "ok = ok && least == -2147483647 - 1 && five == -2 && v == vec3(0.25, 0.5, 1.0);\n"
+        "int a[4]; a[3] = 7; a[1 + 2] /= 2; a[3] %= minus; ok = ok && a[3] == 0;\n"
+        "return vec4(ok ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), 1.0);";
+    EXPECT_EQ(error_of(body), "");
+    const auto context = make_context("egl");
+    const Spec spec = make_spec(layers(own(body)), {"b2f"}, size_px);
+    Stage stage(*context, spec, PixelFormat::rgba8);
+    const float* pixel = stage.picture(spec.methods[0]).pixel(20, 10);
+    EXPECT_EQ(pixel[0], 0);
+    EXPECT_EQ(pixel[1], 1);
+}
+
+/// The largest arrays that are allowed are drawn.
+TEST(GlslShading, ArraysOfTheLimitAreDrawn) {
+    EXPECT_EQ(error_of("float a[4096]; for (int i = 0; i < 16; ++i) a[i * 255] = tint.r;\n"
+                       "return vec4(a[int(uv.x * 15.0) * 255], tint.gba);"),
+              "");
+}
+
 /// Bounded by the counter even where each iteration runs further loops: the driver's own limit is never met.
 TEST(GlslShading, EndlessLoopsEndInAMethodToo) {
     const auto context = make_context("egl");
