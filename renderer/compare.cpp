@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "renderer/frame/depth_peeler.h"
+#include "renderer/frame/float_opaque.h"
 #include "renderer/frame/loop_check.h"
 #include "renderer/frame/needed.h"
 #include "renderer/frame/nothing_drawn.h"
@@ -213,16 +214,26 @@ class Comparer {
             render(*reference, false);
             m_run.reference_image = target.read();
             m_reference_over = over_backdrops(*reference, target, m_run.reference_image);
+            round_reference();
             m_run.reference_findings = findings(*reference);
         });
         if (trouble) {
             m_run.reference_status = trouble->status;
             m_run.reference_reason = m_run.no_residual_reason = trouble->reason;
-            m_run.reference_image = {};
+            m_run.reference_image = m_run.reference_as_shown = {};
+            m_run.format_cost.reset();
             m_run.reference_findings = nlohmann::json::object();
         } else {
             check_reference(scene, target);
         }
+    }
+
+    void round_reference() {
+        const auto rounded = [&](const Image& image) { return rounded_to(m_spec.image.format, m_context.gl(), image); };
+        m_run.reference_as_shown = rounded(m_run.reference_image);
+        const Backdrops over = {rounded(m_reference_over.black), rounded(m_reference_over.white)};
+        m_run.format_cost = compute_metrics(m_run.reference_image, m_run.reference_as_shown, &m_reference_over, &over);
+        m_run.format_cost->pictures.clear();
     }
 
     /// Against depth peeling, which shares nothing with the lists.
@@ -403,7 +414,8 @@ class Comparer {
                                                        m_run.reference_status, m_run.reference_reason);
             if (!result.no_metrics_reason.empty()) return;
             const Backdrops over = over_backdrops(method, target, result.image);
-            result.metrics = compute_metrics(m_run.reference_image, result.image, &m_reference_over, &over);
+            result.metrics = compute_metrics(m_run.reference_image, result.image, &m_reference_over, &over,
+                                             &m_run.reference_as_shown);
         });
     }
 

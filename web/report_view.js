@@ -272,7 +272,7 @@ function run_part(report, run, options) {
     pixel?.element,
     linear_links(run, picture_url),
     report.device?.software ? [fragments, frontier_section(run), times] : [frontier_section(run), times, fragments],
-    difference_table(run.results, context),
+    difference_table(run.results, context, run.reference?.rounded),
   ];
 }
 

@@ -280,7 +280,28 @@ export function fragment_table(results, context) {
   );
 }
 
-export function difference_table(results, context) {
+/** What the image format alone costs: the reference rounded as the methods' pictures are. Older reports do not have it. */
+function rounded_row(rounded, results, context) {
+  if (!rounded) return null;
+  const result = { status: "ok", label: rounded.label, metrics: rounded.metrics };
+  return el(
+    "tr",
+    { class: "rounded" },
+    el(
+      "th",
+      { scope: "row" },
+      el("span", { class: "label" }, rounded.label),
+      el("span", { class: "caption" }, "what the image format alone costs"),
+    ),
+    DIFFERENCE_COLUMNS.map((column) =>
+      column.pixel
+        ? pixel_cell(result, column, context)
+        : number_cell(result, column, decimals_of([...results, result], column), new Set()),
+    ),
+  );
+}
+
+export function difference_table(results, context, rounded) {
   const best = new Map(DIFFERENCE_COLUMNS.map((column) => [column, best_results(results, column)]));
   const body = results.map((result) => {
     const heading = method_cell(result, context);
@@ -306,6 +327,8 @@ export function difference_table(results, context) {
       ),
     );
   });
+  const last = rounded_row(rounded, results, context);
+  if (last) body.push(last);
   return scroll_box(
     "Differences from the reference",
     el(

@@ -26,13 +26,53 @@ gl::Framebuffer make_framebuffer(const gl::Functions& gl, const gl::Texture& col
     return gl::make_framebuffer(gl, "accumulation", colors, target.depth().id());
 }
 
+struct Factors {
+    GLenum source, target;
+};
+
+/// T (1 - a) where the transmittance T is kept and 1 - a written, else a + A (1 - a) = A + a (1 - A).
+Factors alpha_factors(const AlphaForm& form) {
+    if (form.inverted) return form.by_target ? Factors{GL_DST_ALPHA, GL_ZERO} : Factors{GL_ZERO, GL_SRC_ALPHA};
+    return form.by_target ? Factors{GL_ONE_MINUS_DST_ALPHA, GL_ONE} : Factors{GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
+}
+
+/// The same of a texture that has no alpha channel.
+Factors separate_factors(const AlphaForm& form) {
+    if (form.inverted) return form.by_target ? Factors{GL_DST_COLOR, GL_ZERO} : Factors{GL_ZERO, GL_SRC_COLOR};
+    return form.by_target ? Factors{GL_ONE_MINUS_DST_COLOR, GL_ONE} : Factors{GL_ONE, GL_ONE_MINUS_SRC_COLOR};
+}
+
 }  // namespace
 
-Accumulation::Accumulation(const gl::Functions& gl, const Target& target, PixelFormat format, bool separate_alpha)
+std::vector<Param> alpha_form_parameters() {
+    return {
+        Param::choice("alpha_factors",
+                      "blend factors of alpha: ZERO, SRC_ALPHA or DST_ALPHA, ZERO; not inverted, they are "
+                      "ONE, ONE_MINUS_SRC_ALPHA and ONE_MINUS_DST_ALPHA, ONE",
+                      "zero_src_alpha", {"zero_src_alpha", "dst_alpha_zero"}),
+        Param::boolean("inverted",
+                       "alpha is kept as 1 - opacity; else as opacity, with the factors ONE_MINUS_DST_ALPHA, ONE for "
+                       "colour",
+                       true),
+    };
+}
+
+AlphaForm alpha_form(const nlohmann::json& parameters) {
+    return {.inverted = parameters.at("inverted").get<bool>(),
+            .by_target = parameters.at("alpha_factors") == "dst_alpha_zero"};
+}
+
+std::string alpha_form_prolog(const AlphaForm& form) {
+    return form.inverted ? "#define INVERTED 1\n" : "#define INVERTED 0\n";
+}
+
+Accumulation::Accumulation(const gl::Functions& gl, const Target& target, PixelFormat format, bool separate_alpha,
+                           AlphaForm form)
     : m_gl(gl),
       m_target(target),
       m_format(format),
       m_separate_alpha(separate_alpha),
+      m_form(form),
       m_color(gl::make_texture_2d(gl, "accumulation color", gl_format(format), target.width_px(), target.height_px())),
       m_composite(gl, "composite", gl::shader_file("common/composite.glsl")) {
     if (separate_alpha)
@@ -43,7 +83,8 @@ Accumulation::Accumulation(const gl::Functions& gl, const Target& target, PixelF
 
 void Accumulation::clear(float transmittance) const {
     begin_pass(m_gl, m_framebuffer, m_target.width_px(), m_target.height_px());
-    const glm::vec4 color(0, 0, 0, transmittance), alpha(transmittance);
+    const float kept = m_form.inverted ? transmittance : 1 - transmittance;
+    const glm::vec4 color(0, 0, 0, kept), alpha(kept);
     m_gl.ClearBufferfv(GL_COLOR, 0, &color[0]);
     if (m_separate_alpha) m_gl.ClearBufferfv(GL_COLOR, 1, &alpha[0]);
 }
@@ -52,14 +93,15 @@ void Accumulation::begin_blending() const {
     begin_pass(m_gl, m_framebuffer, m_target.width_px(), m_target.height_px());
     set_transparent_depth_state(m_gl);
     m_gl.Enable(GL_BLEND);
-    m_gl.BlendFuncSeparate(GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_SRC_ALPHA);
-    if (m_separate_alpha) m_gl.BlendFuncSeparatei(1, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_SRC_ALPHA);
+    const Factors alpha = alpha_factors(m_form), separate = separate_factors(m_form);
+    m_gl.BlendFuncSeparate(m_form.inverted ? GL_DST_ALPHA : GL_ONE_MINUS_DST_ALPHA, GL_ONE, alpha.source, alpha.target);
+    if (m_separate_alpha) m_gl.BlendFuncSeparatei(1, separate.source, separate.target, alpha.source, alpha.target);
 }
 
 void Accumulation::composite() const {
     begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
     m_gl.Enable(GL_BLEND);
-    m_gl.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
+    m_gl.BlendFuncSeparate(GL_ONE, m_form.inverted ? GL_SRC_ALPHA : GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     m_gl.BindTextureUnit(first_method_texture_unit, m_color.id());
     m_composite.draw();
 }

@@ -1,6 +1,7 @@
 #include "renderer/frame/discarding.h"
 
 #include <algorithm>
+#include <map>
 
 namespace sheer {
 
@@ -9,12 +10,15 @@ namespace {
 constexpr const char* fetch_extension = "GL_EXT_shader_framebuffer_fetch";
 
 gl::Program make_program(const MethodSetup& setup, bool framebuffer_fetch, bool separate_alpha) {
+    const bool if_else = setup.parameters.at("form") == "if_else";
     if (framebuffer_fetch && !setup.context.has_extension(fetch_extension))
         throw Unsupported(std::string("feedback framebuffer_fetch needs ") + fetch_extension);
     std::string prolog;
     if (framebuffer_fetch) prolog += std::string("#extension ") + fetch_extension + " : require\n";
     prolog += framebuffer_fetch ? "#define FRAMEBUFFER_FETCH 1\n" : "#define FRAMEBUFFER_FETCH 0\n";
     prolog += separate_alpha ? "#define SEPARATE_ALPHA 1\n" : "#define SEPARATE_ALPHA 0\n";
+    prolog += if_else ? "#define IF_ELSE 1\n" : "#define IF_ELSE 0\n";
+    prolog += alpha_form_prolog(alpha_form(setup.parameters));
     return setup.scene.make_program("f2bd", gl::shader_file("methods/f2bd.glsl"), prolog);
 }
 
@@ -25,20 +29,28 @@ bool separate(const MethodSetup& setup) {
 }  // namespace
 
 std::vector<Param> discarding_parameters() {
-    return {
+    std::vector<Param> parameters = {
         Param::number("threshold", "a fragment is discarded where less than this transmittance is left", "", 0.01, 0,
                       1),
         Param::choice(
             "sync",
             "how the caches are made to see the clear and each batch: a texture barrier, binding framebuffer 0 "
-            "and back, or not at all (shows the artefacts of the paper's Figure 3 on hardware)",
-            "barrier", {"barrier", "rebind", "none"}),
+            "and back, glFlush or glFinish (which do not help, says the paper), or not at all (shows the artefacts of "
+            "its Figure 3 on hardware)",
+            "barrier", {"barrier", "rebind", "flush", "finish", "none"}),
         Param::choice("alpha_target", "read the transmittance from the colour target or from one of a single channel",
                       "shared", {"shared", "separate"}),
         Param::choice("feedback", "how the fragment reads it", "texture", {"texture", "framebuffer_fetch"}),
         Param::integer("batch", "primitives between synchronisations; 0 synchronises after the clear only", "", 0, 0,
                        1000000),
+        Param::choice(
+            "form",
+            "the shader's: discard or else shade, as the paper prints it, or discard and go on, which it found "
+            "slower on some hardware",
+            "if_else", {"if_else", "if_discard"}),
     };
+    for (Param& param : alpha_form_parameters()) parameters.push_back(std::move(param));
+    return parameters;
 }
 
 DiscardingBlending::DiscardingBlending(const MethodSetup& setup, float initial_transmittance)
@@ -46,15 +58,22 @@ DiscardingBlending::DiscardingBlending(const MethodSetup& setup, float initial_t
       m_scene(setup.scene),
       m_initial_transmittance(initial_transmittance),
       m_threshold(setup.parameters.at("threshold").get<float>()),
-      m_sync(setup.parameters.at("sync") == "barrier"  ? Sync::barrier
-             : setup.parameters.at("sync") == "rebind" ? Sync::rebind
-                                                       : Sync::none),
+      m_sync(sync_named(setup.parameters.at("sync"))),
       m_framebuffer_fetch(setup.parameters.at("feedback") == "framebuffer_fetch"),
       m_batch(setup.parameters.at("batch").get<std::size_t>()),
       m_opaque(setup.gl, setup.scene, setup.target),
-      m_accumulation(setup.gl, setup.target, setup.target.format(), separate(setup)),
+      m_accumulation(setup.gl, setup.target, setup.target.format(), separate(setup), alpha_form(setup.parameters)),
       m_program(make_program(setup, m_framebuffer_fetch, separate(setup))) {
     m_program.set("u_threshold", m_threshold);
+}
+
+DiscardingBlending::Sync DiscardingBlending::sync_named(const std::string& name) {
+    static const std::map<std::string, Sync> all = {{"barrier", Sync::barrier},
+                                                    {"rebind", Sync::rebind},
+                                                    {"flush", Sync::flush},
+                                                    {"finish", Sync::finish},
+                                                    {"none", Sync::none}};
+    return all.at(name);
 }
 
 void DiscardingBlending::render(gl::FrameTimer& timer) {
@@ -104,6 +123,12 @@ void DiscardingBlending::synchronise() const {
         case Sync::rebind:
             m_gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
             m_gl.BindFramebuffer(GL_FRAMEBUFFER, m_accumulation.framebuffer().id());
+            break;
+        case Sync::flush:
+            m_gl.Flush();
+            break;
+        case Sync::finish:
+            m_gl.Finish();
             break;
         case Sync::none:
             break;

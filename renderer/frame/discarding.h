@@ -16,7 +16,8 @@ class DiscardingBlending : public Method {
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
   private:
-    enum class Sync { barrier, rebind, none };
+    enum class Sync { barrier, rebind, flush, finish, none };
+    static Sync sync_named(const std::string& name);
     void synchronise() const;
     void draw_batches() const;
 
@@ -32,7 +33,7 @@ class DiscardingBlending : public Method {
     gl::Program m_program;
 };
 
-/// `threshold`, `sync`, `alpha_target`, `feedback`, `batch`.
+/// `threshold`, `sync`, `alpha_target`, `feedback`, `batch`, `form`, and those of alpha_form_parameters().
 std::vector<Param> discarding_parameters();
 
 }  // namespace sheer

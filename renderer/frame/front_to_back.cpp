@@ -2,11 +2,12 @@
 
 namespace sheer {
 
-FrontToBack::FrontToBack(const MethodSetup& setup, PixelFormat accumulation_format)
+FrontToBack::FrontToBack(const MethodSetup& setup)
     : m_scene(setup.scene),
       m_opaque(setup.gl, setup.scene, setup.target),
-      m_accumulation(setup.gl, setup.target, accumulation_format),
-      m_program(setup.scene.make_program("front to back", gl::shader_file("methods/f2b.glsl"))) {}
+      m_accumulation(setup.gl, setup.target, setup.target.format(), false, alpha_form(setup.parameters)),
+      m_program(setup.scene.make_program("front to back", gl::shader_file("methods/f2b.glsl"),
+                                         alpha_form_prolog(alpha_form(setup.parameters)))) {}
 
 void FrontToBack::render(gl::FrameTimer& timer) {
     m_opaque.draw(timer);

@@ -4,11 +4,11 @@
 
 namespace sheer {
 
-/// Premultiplied blending from near to far into an accumulation of the given format, laid over the opaque picture at
-/// the end: SCCG 2010, section 2.
+/// Premultiplied blending from near to far into an accumulation of the target's format, laid over the opaque picture at
+/// the end: SCCG 2010, section 2. The parameters are those of alpha_form_parameters().
 class FrontToBack : public Method {
   public:
-    FrontToBack(const MethodSetup& setup, PixelFormat accumulation_format);
+    explicit FrontToBack(const MethodSetup& setup);
     void render(gl::FrameTimer& timer) override;
     std::vector<PixelFact> explain(const PixelTrace& trace) const override;
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }

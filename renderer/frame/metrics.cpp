@@ -49,13 +49,14 @@ const Image& checked(const Image& reference, const Image& test) {
 }  // namespace
 
 ImagePair::ImagePair(const Image& reference_image, const Image& test_image, const Backdrops* reference_backdrops,
-                     const Backdrops* test_backdrops)
+                     const Backdrops* test_backdrops, const Image* reference_as_shown)
     : reference(checked(reference_image, test_image)),
       test(test_image),
-      reference8(quantize(reference_image)),
+      reference8(quantize(reference_as_shown ? *reference_as_shown : reference_image)),
       test8(quantize(test_image)),
       reference_over(reference_backdrops),
       test_over(test_backdrops) {
+    if (reference_as_shown) require_comparable(*reference_as_shown, test);
     if (reference_over && test_over) {
         require_comparable(reference, reference_over->black);
         require_comparable(reference, reference_over->white);
@@ -71,8 +72,8 @@ const std::vector<MetricInfo>& all_metrics() {
 }
 
 Metrics compute_metrics(const Image& reference, const Image& test, const Backdrops* reference_over,
-                        const Backdrops* test_over) {
-    const ImagePair pair(reference, test, reference_over, test_over);
+                        const Backdrops* test_over, const Image* reference_as_shown) {
+    const ImagePair pair(reference, test, reference_over, test_over, reference_as_shown);
     Metrics result;
     result.values = nlohmann::json::object();
     for (const MetricInfo& metric : all_metrics()) {

@@ -1,10 +1,11 @@
 // The second reference, built on nothing that `exact` uses: depth peeling (Everitt, Interactive Order-Independent
 // Transparency, NVIDIA 2001). Each pass draws everything and keeps, per pixel, the nearest fragment behind the one that
-// the last pass kept; the layers are composited from near to far in 32-bit floats until a pass keeps nothing. Fragments
-// of equal depth are told apart by their primitive, so that none is lost. Good at: being right without sorting, lists
-// or atomics. Bad at: draws the whole scene once per layer. No parameters.
+// the last pass kept; the layers are composited from near to far in 32-bit floats until a pass keeps nothing, and the
+// picture is rounded once. Fragments of equal depth are told apart by their primitive, so that none is lost. Good at:
+// being right without sorting, lists or atomics. Bad at: draws the whole scene once per layer. No parameters.
 #include "renderer/frame/accumulation.h"
 #include "renderer/frame/depth_peeler.h"
+#include "renderer/frame/float_opaque.h"
 #include "renderer/methods/method.h"
 
 namespace sheer {
@@ -31,10 +32,12 @@ class DepthPeeling : public Method {
             while (m_peeler.next()) blend_layer();
         }
         const auto pass = timer.pass("composite", gl::Phase::finalization);
-        m_accumulation.composite();
+        m_opaque.composite(m_accumulation.color());
     }
 
-    std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes() + m_peeler.memory_bytes(); }
+    std::int64_t memory_bytes() const override {
+        return m_opaque.memory_bytes() + m_accumulation.memory_bytes() + m_peeler.memory_bytes();
+    }
 
   private:
     void blend_layer() const {
@@ -45,7 +48,7 @@ class DepthPeeling : public Method {
     }
 
     const gl::Functions& m_gl;
-    OpaquePass m_opaque;
+    FloatOpaque m_opaque;
     Accumulation m_accumulation;
     DepthPeeler m_peeler;
     FullscreenPass m_blend;
@@ -62,7 +65,7 @@ MethodInfo method_depth_peeling() {
         .paper = "Everitt, Interactive Order-Independent Transparency, NVIDIA, 2001",
         .good_at = "The right picture for any geometry with nothing but a depth test; checks the exact lists.",
         .bad_at = "Draws the whole scene as often as there are layers in the deepest pixel.",
-        .memory = "68 bytes per pixel",
+        .memory = "84 bytes per pixel",
         .needs_sorting = false,
         .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {
             return std::make_unique<DepthPeeling>(setup);

@@ -1,4 +1,5 @@
-// The reference: every fragment of a pixel is kept, sorted by depth and composited in 32-bit floats.
+// The reference: every fragment of a pixel is kept, sorted by depth and composited with the opaque picture in 32-bit
+// floats. The target's rounding is the only one.
 // Lists: per-pixel linked lists with atomics (Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List
 // Construction on the GPU, EGSR 2010). The fragments are counted first, and the image is cut into tiles whose fragments
 // fit the memory, so that none is ever dropped. In the first frame the fragments that were drawn are held against those
@@ -10,7 +11,8 @@
 #include <algorithm>
 #include <array>
 
-#include "renderer/frame/front_to_back.h"
+#include "renderer/frame/accumulation.h"
+#include "renderer/frame/float_opaque.h"
 #include "renderer/frame/overdraw.h"
 #include "renderer/methods/method.h"
 
@@ -68,6 +70,7 @@ class LinkedLists : public Method {
         const bool first = !m_nodes;
         if (first) prepare(timer);
         m_opaque.draw(timer);
+        m_opaque.copy_to_target();
         for (const ScreenTile& tile : m_tiles) {
             build(tile, timer);
             if (first) require_all_kept(tile);
@@ -84,7 +87,7 @@ class LinkedLists : public Method {
                   {"memory_bytes", m_memory_bytes}}}};
     }
 
-    std::int64_t memory_bytes() const override { return m_memory_bytes; }
+    std::int64_t memory_bytes() const override { return m_memory_bytes + m_opaque.memory_bytes(); }
 
   private:
     static std::string source(const std::string& stage) {
@@ -167,8 +170,7 @@ class LinkedLists : public Method {
             m_sort.draw();
         }
         begin_tile_pass(tile);
-        m_gl.Enable(GL_BLEND);
-        m_gl.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
+        m_gl.BindTextureUnit(first_method_texture_unit, m_opaque.color().id());
         set_tile(m_composite.program(), tile);
         m_composite.draw();
     }
@@ -176,7 +178,7 @@ class LinkedLists : public Method {
     const gl::Functions& m_gl;
     const Scene& m_scene;
     const Target& m_target;
-    OpaquePass m_opaque;
+    FloatOpaque m_opaque;
     gl::Program m_build;
     FullscreenPass m_sort, m_composite;
     std::uint64_t m_capacity = 0;
@@ -192,11 +194,43 @@ bool draws_sorted(const Scene& scene, const nlohmann::json& parameters) {
     return scene.parallel() && parameters.at("form") != "lists";
 }
 
+class SortedInFloats : public Method {
+  public:
+    explicit SortedInFloats(const MethodSetup& setup)
+        : m_scene(setup.scene),
+          m_opaque(setup.gl, setup.scene, setup.target),
+          m_accumulation(setup.gl, setup.target, PixelFormat::rgba32f),
+          m_program(setup.scene.make_program("exact: sorted", gl::shader_file("methods/f2b.glsl"))) {}
+
+    void render(gl::FrameTimer& timer) override {
+        m_opaque.draw(timer);
+        {
+            const auto pass = timer.pass("clear", gl::Phase::initialization);
+            m_accumulation.clear(1);
+        }
+        {
+            const auto pass = timer.pass("transparent", gl::Phase::transparent);
+            m_accumulation.begin_blending();
+            m_scene.draw_transparent(m_program, Order::near_to_far);
+        }
+        const auto pass = timer.pass("composite", gl::Phase::finalization);
+        m_opaque.composite(m_accumulation.color());
+    }
+
+    std::int64_t memory_bytes() const override { return m_opaque.memory_bytes() + m_accumulation.memory_bytes(); }
+
+  private:
+    const Scene& m_scene;
+    FloatOpaque m_opaque;
+    Accumulation m_accumulation;
+    gl::Program m_program;
+};
+
 std::unique_ptr<Method> make(const MethodSetup& setup) {
     if (setup.parameters.at("form") == "sorted" && !setup.scene.parallel())
         throw Unsupported("form sorted needs parallel primitives; this scene's may intersect");
     if (!draws_sorted(setup.scene, setup.parameters)) return std::make_unique<LinkedLists>(setup);
-    return std::make_unique<FrontToBack>(setup, PixelFormat::rgba32f);
+    return std::make_unique<SortedInFloats>(setup);
 }
 
 }  // namespace
@@ -206,11 +240,11 @@ MethodInfo method_exact() {
         .id = "exact",
         .name = "Exact",
         .kind = "reference",
-        .summary = "Every fragment of a pixel, sorted by depth and composited in 32-bit floats.",
+        .summary = "Every fragment of a pixel, sorted by depth and composited in 32-bit floats; rounded once.",
         .paper = "Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List Construction on the GPU, EGSR 2010",
         .good_at = "The right picture for any geometry, intersecting primitives included.",
         .bad_at = "Memory and time grow with every fragment.",
-        .memory = "28 bytes per fragment of a tile; 16 bytes per pixel in the sorted form",
+        .memory = "16 bytes per pixel and 28 bytes per fragment of a tile; 32 bytes per pixel in the sorted form",
         .needs_sorting = false,
         .sorts_here = draws_sorted,
         .parameters = {Param::choice("form",

@@ -2,7 +2,7 @@
 // The transparent primitives are drawn from near to far into an RGBA texture that starts at (0, 0, 0, 1), with
 // premultiplied colour and inverted alpha; the texture is then laid over the opaque picture.
 // Good at: the picture of B2F, ready for discarding. Bad at: an extra texture, a clear and a full-screen pass.
-// No parameters.
+// Parameters: `alpha_factors` and `inverted`, which the paper leaves open; the picture is the same but for rounding.
 #include "renderer/frame/front_to_back.h"
 
 namespace sheer {
@@ -17,8 +17,9 @@ MethodInfo method_f2b() {
         .good_at = "The same picture as B2F; cheaper blend factors; the base of every early-discard method.",
         .bad_at = "One more texture, a clear and a full-screen pass, which do not pay below about 16 quads.",
         .memory = "one pixel of the image format",
+        .parameters = alpha_form_parameters(),
         .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {
-            return std::make_unique<FrontToBack>(setup, setup.target.format());
+            return std::make_unique<FrontToBack>(setup);
         },
     };
 }

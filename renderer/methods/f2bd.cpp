@@ -2,8 +2,9 @@
 // As F2B, but a fragment first reads the transmittance that is left at its pixel, from the very texture that is being
 // drawn to, and gives up before any shading where that is under `threshold`.
 // Good at: heavy overdraw with costly shaders. Bad at: light scenes; the error grows with the threshold.
-// Parameters: `threshold` 0..1, 0.01; `sync` barrier, rebind or none; `alpha_target` shared or separate; `feedback`
-// texture or framebuffer_fetch; `batch` primitives between synchronisations, 0 for one after the clear only.
+// Parameters: `threshold` 0..1, 0.01; `sync` barrier, rebind, flush, finish or none; `alpha_target` shared or separate;
+// `feedback` texture or framebuffer_fetch; `batch` primitives between synchronisations, 0 for one after the clear only;
+// `form` if_else or if_discard; and those of F2B.
 #include "renderer/frame/discarding.h"
 
 namespace sheer {

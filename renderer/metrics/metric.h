@@ -20,14 +20,16 @@ struct Backdrops {
 struct ImagePair {
     const Image& reference;
     const Image& test;
-    Image8 reference8;
+    Image8 reference8;  ///< of the reference as it is shown
     Image8 test8;
     const Backdrops* reference_over;  ///< null where they were not rendered
     const Backdrops* test_over;
 
-    /// Throws std::invalid_argument if the sizes differ or a picture is empty or not as long as its size says.
+    /// `reference_as_shown` is what `reference8` is made from: the reference rounded to the format that the test
+    /// picture had, as the device rounds; null for the reference itself. Throws std::invalid_argument if the sizes
+    /// differ or a picture is empty or not as long as its size says.
     ImagePair(const Image& reference_image, const Image& test_image, const Backdrops* reference_backdrops = nullptr,
-              const Backdrops* test_backdrops = nullptr);
+              const Backdrops* test_backdrops = nullptr, const Image* reference_as_shown = nullptr);
 };
 
 /// One value of a metric, as checks name it: "flip.mean", or "rmse" where the metric is a single number.
@@ -65,6 +67,6 @@ struct Metrics {
     std::vector<std::pair<std::string, Image8>> pictures;
 };
 Metrics compute_metrics(const Image& reference, const Image& test, const Backdrops* reference_over = nullptr,
-                        const Backdrops* test_over = nullptr);
+                        const Backdrops* test_over = nullptr, const Image* reference_as_shown = nullptr);
 
 }  // namespace sheer

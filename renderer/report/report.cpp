@@ -78,6 +78,11 @@ class RunWriter {
         if (!m_run.residual) reference["residual_reason"] = m_run.no_residual_reason;
         reference["status"] = m_run.reference_status;
         reference["reason"] = m_run.reference_reason.empty() ? json() : json(m_run.reference_reason);
+        if (m_run.format_cost)
+            reference["rounded"] = {
+                {"label", fmt::format("{} in {}", m_run.reference.id, to_string(m_run.image.format))},
+                {"format", to_string(m_run.image.format)},
+                {"metrics", m_run.format_cost->values}};
         json results = json::array();
         for (std::size_t i = 0; i < m_run.results.size(); ++i) {
             const MethodResult& result = m_run.results[i];
@@ -109,9 +114,14 @@ class RunWriter {
         return all;
     }
 
+    /// What is shown is what the methods' pictures are compared with: rounded as they are.
     json reference_pictures() const {
         if (m_run.reference_status != "ok") return json::object();
-        return pictures(m_run.reference_image, "reference-" + m_run.reference.id, true);
+        const std::string label = "reference-" + m_run.reference.id;
+        const Image& shown = m_run.format_cost ? m_run.reference_as_shown : m_run.reference_image;
+        json all = pictures(shown, label, false);
+        if (m_pictures) all["linear"] = m_pictures->take(m_run.reference_image, picture_name(label, "linear.exr"));
+        return all;
     }
 
     json result_json(const MethodResult& result, const std::string& name) const {

@@ -65,6 +65,16 @@ Row row(const json& result) {
             number(result, "/metrics/differing_pixels", "{:.0f}")};
 }
 
+/// What the image format alone costs: the reference, rounded as the methods' target is. Reports made before it was
+/// measured have none.
+Row rounded_row(const json& rounded) {
+    return row({{"label", rounded["label"]},
+                {"status", "ok"},
+                {"timing", nullptr},
+                {"speedup", nullptr},
+                {"metrics", rounded["metrics"]}});
+}
+
 Row fragment_row(const json& result) {
     if (result["status"] != "ok") return no_result(result);
     return {result["label"],
@@ -86,6 +96,7 @@ std::string time_table(const json& run) {
                               "with sort [95 %]", "mean |d|", "min d", "max d", "PSNR dB", "SSIM", "FLIP",
                               "differing px"}};
     for (const json& result : run["results"]) rows.push_back(row(result));
+    if (run["reference"].contains("rounded")) rows.push_back(rounded_row(run["reference"]["rounded"]));
     return aligned(rows);
 }
 
@@ -99,6 +110,9 @@ std::string captions(const json& run, const std::string& baseline) {
         fmt::format("d: {} minus method, in 8-bit levels.", run["reference"]["method"].get<std::string>());
     const json& residual = run["reference"]["residual"]["depth_peeling"];
     if (residual.is_number()) text += fmt::format(" Residual to depth peeling {}.", number_text(residual, 2));
+    if (run["reference"].contains("rounded"))
+        text += fmt::format("\n{}: what the image format alone costs.",
+                            run["reference"]["rounded"]["label"].get<std::string>());
     const int done = run["rounds"]["done"], asked = run["rounds"]["asked"];
     text += fmt::format("\nSpeedup over {}, {} of {} rounds{}.", baseline, done, asked,
                         done < asked ? ", ended by max_seconds" : "");

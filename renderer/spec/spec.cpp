@@ -354,6 +354,18 @@ class SpecReader {
 
 }  // namespace
 
+std::string to_string(PixelFormat format) {
+    switch (format) {
+        case PixelFormat::rgba8:
+            return "rgba8";
+        case PixelFormat::rgba16f:
+            return "rgba16f";
+        case PixelFormat::rgba32f:
+            return "rgba32f";
+    }
+    throw std::logic_error("unknown pixel format");
+}
+
 Spec parse_spec(const json& document, const AssetRule& rule) {
     return SpecReader(rule).read(document);
 }

@@ -12,6 +12,8 @@ namespace sheer {
 
 /// What the methods blend into.
 enum class PixelFormat { rgba8, rgba16f, rgba32f };
+/// As a spec names it.
+std::string to_string(PixelFormat format);
 
 struct ImageSpec {
     int width_px = 512;

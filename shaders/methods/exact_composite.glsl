@@ -1,4 +1,6 @@
-layout(location = 0) out vec4 o_color;  // blend ONE, SRC_ALPHA for colour; ZERO, ONE for alpha
+layout(binding = 8) uniform sampler2D u_opaque;
+
+layout(location = 0) out vec4 o_color;  // no blending: the target's rounding is the only one
 
 void main() {
     vec3 color = vec3(0.0);
@@ -9,5 +11,5 @@ void main() {
         color += transmittance * work.a * work.rgb;
         transmittance *= 1.0 - work.a;
     }
-    o_color = vec4(color, transmittance);
+    o_color = vec4(color + transmittance * texelFetch(u_opaque, ivec2(gl_FragCoord.xy), 0).rgb, 1.0);
 }

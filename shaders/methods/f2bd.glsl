@@ -1,12 +1,12 @@
-// The paper's section 2.2, in the if/else form that it found faster on some hardware.
-// Set before: FRAMEBUFFER_FETCH and SEPARATE_ALPHA, 0 or 1.
+// The paper's section 2.2, in its two forms: if/else, which it found faster on some hardware, and if/discard.
+// Set before: FRAMEBUFFER_FETCH, SEPARATE_ALPHA, IF_ELSE and INVERTED, 0 or 1.
 
 uniform float u_threshold;
 
 #if FRAMEBUFFER_FETCH
-layout(location = 0) inout vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA
+layout(location = 0) inout vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA; see AlphaForm for the others
 #else
-layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA
+layout(location = 0) out vec4 o_color;  // the same
 layout(binding = 8) uniform sampler2D u_alpha;
 #endif
 
@@ -18,7 +18,7 @@ layout(location = 1) out vec4 o_alpha;  // blend ZERO, SRC_COLOR
 #endif
 #endif
 
-float transmittance() {
+float kept_alpha() {
 #if FRAMEBUFFER_FETCH && SEPARATE_ALPHA
     return o_alpha.r;
 #elif FRAMEBUFFER_FETCH
@@ -30,15 +30,29 @@ float transmittance() {
 #endif
 }
 
+bool is_saturated() {
+    return (INVERTED != 0 ? kept_alpha() : 1.0 - kept_alpha()) < u_threshold;
+}
+
+void shade() {
+    vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
+    float alpha = INVERTED != 0 ? 1.0 - work.a : work.a;
+    o_color = vec4(work.rgb * work.a, alpha);
+#if SEPARATE_ALPHA
+    o_alpha = vec4(alpha);
+#endif
+}
+
 void main() {
     begin_fragment();
-    if (transmittance() < u_threshold) {
+#if IF_ELSE
+    if (is_saturated()) {
         discard;
     } else {
-        vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
-        o_color = vec4(work.rgb * work.a, 1.0 - work.a);
-#if SEPARATE_ALPHA
-        o_alpha = vec4(1.0 - work.a);
-#endif
+        shade();
     }
+#else
+    if (is_saturated()) discard;
+    shade();
+#endif
 }

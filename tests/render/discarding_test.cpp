@@ -15,10 +15,10 @@ nlohmann::json quads(int count, const std::string& shading = "4x4-textures") {
 
 /// Calls that a method made.
 struct Calls {
-    int barriers = 0, unbinds = 0;
+    int barriers = 0, unbinds = 0, flushes = 0, finishes = 0;
 };
 
-/// The functions of a context with two of them counted. One at a time: GL functions carry no user data.
+/// The functions of a context with four of them counted. One at a time: GL functions carry no user data.
 class CountedFunctions {
   public:
     explicit CountedFunctions(const gl::Functions& real) : m_functions(real) {
@@ -31,6 +31,14 @@ class CountedFunctions {
         m_functions.BindFramebuffer = [](GLenum target, GLuint id) {
             if (id == 0) ++s_calls->unbinds;
             s_real->BindFramebuffer(target, id);
+        };
+        m_functions.Flush = [] {
+            ++s_calls->flushes;
+            s_real->Flush();
+        };
+        m_functions.Finish = [] {
+            ++s_calls->finishes;
+            s_real->Finish();
         };
     }
     const gl::Functions& functions() const { return m_functions; }
@@ -71,6 +79,12 @@ TEST(Discarding, RebindsOrDoesNothingWhenTold) {
     EXPECT_EQ(rebind.unbinds, 3);
     const Calls none = calls_of({{"id", "f2bd"}, {"sync", "none"}, {"batch", 4}}, 10);
     EXPECT_EQ(none.barriers + none.unbinds, 0);
+    const Calls flush = calls_of({{"id", "f2bd"}, {"sync", "flush"}, {"batch", 4}}, 10);
+    EXPECT_EQ(flush.flushes - none.flushes, 3);
+    EXPECT_EQ(flush.barriers + flush.unbinds + flush.finishes - none.finishes, 0);
+    const Calls finish = calls_of({{"id", "f2bd"}, {"sync", "finish"}, {"batch", 4}}, 10);
+    EXPECT_EQ(finish.finishes - none.finishes, 3);
+    EXPECT_EQ(finish.barriers + finish.unbinds + finish.flushes - none.flushes, 0);
 }
 
 /// What is left out at a pixel has less than the threshold of transmittance before it, and no colour is over 1.
@@ -92,12 +106,39 @@ TEST(Discarding, EveryWayOfReadingTheAlphaGivesOnePicture) {
                                  {{"id", "f2bd"}, {"alpha_target", "separate"}},
                                  {{"id", "f2bd"}, {"feedback", "framebuffer_fetch"}},
                                  {{"id", "f2bd"}, {"feedback", "framebuffer_fetch"}, {"alpha_target", "separate"}},
+                                 {{"id", "f2bd"}, {"form", "if_discard"}},
+                                 {{"id", "f2bd"}, {"alpha_factors", "dst_alpha_zero"}},
                                  {{"id", "f2bd"}, {"sync", "rebind"}, {"batch", 7}}};
     const Spec spec = make_spec(quads(200), ways, size_px);
     Stage stage(*context, spec, PixelFormat::rgba8);
     const Image first = stage.picture(spec.methods[0]);
     for (const MethodSpec& method : spec.methods)
         EXPECT_EQ(greatest_difference(first, stage.picture(method)), 0) << method.parameters;
+}
+
+/// The opacity in place of the transmittance: the same picture and the same fragments but for rounding.
+TEST(Discarding, KeepingTheOpacityGivesThePicture) {
+    const auto context = make_context("egl");
+    nlohmann::json methods = nlohmann::json::array({{{"id", "f2bd"}, {"threshold", 0.05}}});
+    for (const std::string alpha_target : {"shared", "separate"})
+        for (const std::string factors : {"zero_src_alpha", "dst_alpha_zero"})
+            for (const std::string feedback : {"texture", "framebuffer_fetch"})
+                methods.push_back({{"id", "f2bd"},
+                                   {"threshold", 0.05},
+                                   {"inverted", false},
+                                   {"alpha_target", alpha_target},
+                                   {"alpha_factors", factors},
+                                   {"feedback", feedback}});
+    const Spec spec = make_spec(quads(200), methods, size_px, "rgba32f");
+    Stage stage(*context, spec, PixelFormat::rgba32f);
+    const Image first = stage.picture(spec.methods[0]);
+    // A fragment that just passes the threshold on one side of the rounding adds less than that.
+    for (const MethodSpec& method : spec.methods)
+        EXPECT_LE(greatest_difference(first, stage.picture(method)), 0.05 + 1e-5) << method.parameters;
+    int alike = 0;
+    for (const MethodSpec& method : spec.methods)
+        alike += greatest_difference(first, stage.picture(method)) < 1e-4 ? 1 : 0;
+    EXPECT_GT(alike, static_cast<int>(spec.methods.size()) / 2);
 }
 
 /// Without the extension the method is unsupported, with the extension's name as the reason.
