@@ -106,12 +106,12 @@ void Accumulation::composite() const {
     m_composite.draw();
 }
 
-void add_accumulated(std::vector<PixelFact>& facts, const std::optional<glm::vec4>& color) {
+void add_accumulated(std::vector<PixelFact>& facts, const std::optional<glm::vec4>& color, AlphaForm form) {
     if (!color) return;
     facts.push_back(color_fact("accumulated", glm::vec3(*color),
                                "What the blended fragments add up to, premultiplied, before anything is behind them."));
-    facts.push_back(
-        number_fact("transmittance", color->a, "How much of what is behind the blended fragments is seen."));
+    facts.push_back(number_fact("transmittance", form.inverted ? color->a : 1 - color->a,
+                                "How much of what is behind the blended fragments is seen."));
 }
 
 std::int64_t Accumulation::memory_bytes() const {

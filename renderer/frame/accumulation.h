@@ -45,6 +45,7 @@ class Accumulation {
     void composite() const;
 
     const gl::Texture& color() const { return m_color; }
+    AlphaForm form() const { return m_form; }
     const gl::Framebuffer& framebuffer() const { return m_framebuffer; }
     /// Where the transmittance can be read: channel a of the shared texture, channel r of the separate one.
     const gl::Texture& readable_alpha() const { return m_separate_alpha ? m_alpha : m_color; }
@@ -62,6 +63,6 @@ class Accumulation {
 };
 
 /// Tells of a pixel what an accumulation held when the last fragment had been blended; nothing if none was.
-void add_accumulated(std::vector<PixelFact>& facts, const std::optional<glm::vec4>& color);
+void add_accumulated(std::vector<PixelFact>& facts, const std::optional<glm::vec4>& color, AlphaForm form = {});
 
 }  // namespace sheer

@@ -111,7 +111,7 @@ std::vector<PixelFact> DiscardingBlending::explain(const PixelTrace& trace) cons
         fragment_fact("saturated_at", discarded.empty() ? std::nullopt : draws.last_passed(),
                       "The fragment after which less than the threshold was left; none if nothing was discarded, or "
                       "if all was.")};
-    add_accumulated(facts, draws.color);
+    add_accumulated(facts, draws.color, m_accumulation.form());
     return facts;
 }
 

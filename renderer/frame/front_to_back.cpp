@@ -29,7 +29,7 @@ std::vector<PixelFact> FrontToBack::explain(const PixelTrace& trace) const {
     std::vector<PixelFact> facts = {fragments_fact("blended", draws.passed(),
                                                    "The fragments in the order in which they were blended, each behind "
                                                    "all before it.")};
-    add_accumulated(facts, draws.color);
+    add_accumulated(facts, draws.color, m_accumulation.form());
     return facts;
 }
 

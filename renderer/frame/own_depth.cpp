@@ -13,6 +13,7 @@ int depth_bytes_per_pixel(GLenum format) {
         case GL_DEPTH_COMPONENT16:
             return 2;
         case GL_DEPTH_COMPONENT24:
+        case GL_DEPTH_COMPONENT32F:
         case GL_DEPTH24_STENCIL8:
             return 4;
         case GL_DEPTH32F_STENCIL8:

@@ -13,11 +13,12 @@ namespace {
 constexpr int coarse_factor = 4;
 
 gl::Program make_program(const MethodSetup& setup, const std::string& label, std::string_view path) {
-    const auto min_alpha = setup.parameters.at("min_alpha").get<float>();
-    const std::string prolog =
+    const auto min_alpha = setup.parameters.at("min_alpha").get<double>();
+    std::string prolog =
         min_alpha > 0 ? "#define ALPHA_TEST 1\n" : "#define ALPHA_TEST 0\nlayout(early_fragment_tests) in;\n";
+    prolog += setup.scene.has_opaque() ? "#define HAS_OPAQUE 1\n" : "#define HAS_OPAQUE 0\n";
     gl::Program program = setup.scene.make_program(label, gl::shader_file(path), prolog);
-    program.set("u_min_alpha", min_alpha);
+    program.set("u_least_alpha", setup.scene.least_alpha(min_alpha));
     return program;
 }
 
@@ -32,7 +33,7 @@ double greatest_change(const Image& before, const Image& after) {
 
 std::vector<Param> stencil_cap_parameters() {
     return {
-        Param::integer("layers", "fragments that are drawn in a pixel", "", 8, 1, 255),
+        Param::integer("layers", "fragments that are drawn in a pixel", "", 8, 1, 254),
         Param::number("min_alpha", "fragments of less alpha are dropped and use up no layer", "", 0.02, 0, 1),
         Param::integer("frames", "the picture is that of this frame, the first having none before it", "frames", 30, 1,
                        1000),
@@ -48,15 +49,19 @@ StencilCap::StencilCap(const MethodSetup& setup)
       m_layers(setup.parameters.at("layers").get<int>()),
       m_frames(setup.parameters.at("frames").get<int>()),
       m_zcull(setup.parameters.at("zcull").get<bool>()),
+      m_tests_alpha(setup.parameters.at("min_alpha").get<double>() > 0),
+      m_counts(!m_tests_alpha && (setup.scene.has_opaque() || m_zcull)),
       m_coarse_width_px((setup.target.width_px() + coarse_factor - 1) / coarse_factor),
       m_coarse_height_px((setup.target.height_px() + coarse_factor - 1) / coarse_factor),
       m_opaque(setup.gl, setup.scene, setup.target),
       m_accumulation(setup.gl, setup.target, setup.target.format()),
       m_depth(setup.gl, setup.target, m_accumulation.readable_alpha().id(), GL_DEPTH32F_STENCIL8),
-      m_fill(setup.gl, "stencil cap: fill", gl::shader_file("methods/stencil_cap_fill.glsl")),
+      m_fill(setup.gl, "stencil cap: fill", gl::shader_file("methods/stencil_cap_fill.glsl"),
+             m_counts ? "#define COUNTED 1\n" : "#define COUNTED 0\n"),
       m_program(make_program(setup, "stencil cap", "methods/stencil_cap.glsl")),
       m_previous(history_texture()),
       m_current(history_texture()) {
+    if (m_counts) make_counts(setup);
     if (!m_zcull) return;
     m_coarse_program = make_program(setup, "stencil cap: coarse depth", "methods/stencil_cap_depth.glsl");
     m_prime = gl::Program(m_gl, "stencil cap: prime", gl::shader_file("methods/stencil_cap_prime.vert.glsl"),
@@ -65,6 +70,15 @@ StencilCap::StencilCap(const MethodSetup& setup)
                                          m_coarse_height_px);
     m_coarse = gl::make_framebuffer(m_gl, "stencil cap: coarse", std::span<const GLuint>(), m_coarse_depth.id());
     m_no_vertices = gl::make_vertex_array(m_gl, "stencil cap: no vertices");
+}
+
+void StencilCap::make_counts(const MethodSetup& setup) {
+    m_count_program = setup.scene.make_program("stencil cap: count", gl::shader_file("common/count.glsl"));
+    // Half floats tell whole numbers apart up to 2,048.
+    m_count = gl::make_texture_2d(m_gl, "stencil cap: count", GL_R16F, m_target.width_px(), m_target.height_px());
+    m_count_framebuffer =
+        gl::make_framebuffer(m_gl, "stencil cap: count", std::array{m_count.id()}, m_target.depth().id());
+    m_fill.program().set("u_cap", static_cast<float>(m_layers));
 }
 
 gl::Texture StencilCap::history_texture() const {
@@ -120,6 +134,10 @@ void StencilCap::draw_frame(gl::FrameTimer& timer) const {
         const auto pass = timer.pass("transparent", gl::Phase::transparent);
         draw_capped();
     }
+    if (m_counts) {
+        const auto pass = timer.pass("count", gl::Phase::transparent);
+        count_fragments();
+    }
     const auto pass = timer.pass("fill and composite", gl::Phase::finalization);
     if (m_frame > 1) fill();
     m_accumulation.composite();
@@ -158,23 +176,42 @@ void StencilCap::draw_capped() const {
     set_transparent_depth_state(m_gl);
     m_gl.Enable(GL_STENCIL_TEST);
     m_gl.StencilFunc(GL_GREATER, m_layers, 0xff);
-    m_gl.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+    // What the cap stops is counted too, unless it is counted apart.
+    m_gl.StencilOp(m_counts ? GL_KEEP : GL_INCR, GL_KEEP, GL_INCR);
+    m_gl.BindTextureUnit(first_method_texture_unit, m_target.depth().id());
     m_scene.draw_transparent(m_program, Order::near_to_far);
 }
 
-/// Only pixels that are full: behind the others the opaque picture is what there is to see.
+/// Without shading them. The stencil test stops a fragment before the depth test has told whether opaque geometry hides
+/// it, or zcull, and with early tests no shader can tell either.
+void StencilCap::count_fragments() const {
+    begin_pass(m_gl, m_count_framebuffer, m_target.width_px(), m_target.height_px());
+    const glm::vec4 none(0);
+    m_gl.ClearBufferfv(GL_COLOR, 0, &none[0]);
+    set_transparent_depth_state(m_gl);
+    m_gl.Enable(GL_BLEND);
+    m_gl.BlendFunc(GL_ONE, GL_ONE);
+    m_scene.draw_transparent(m_count_program, Order::near_to_far);
+}
+
+/// Only pixels of which the cap hides something: behind the others the opaque picture is what there is to see.
 void StencilCap::fill() const {
     m_depth.begin_blending();
     m_gl.Enable(GL_STENCIL_TEST);
-    m_gl.StencilFunc(GL_EQUAL, m_layers, 0xff);
+    m_gl.StencilFunc(m_counts ? GL_EQUAL : GL_LESS, m_layers, 0xff);
     m_gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-    m_gl.BindTextureUnit(first_method_texture_unit, m_previous.id());
+    bind_fill();
     m_fill.draw();
+}
+
+void StencilCap::bind_fill() const {
+    m_gl.BindTextureUnit(first_method_texture_unit, m_previous.id());
+    if (m_counts) m_gl.BindTextureUnit(first_method_texture_unit + 1, m_count.id());
 }
 
 std::vector<PixelFact> StencilCap::explain(const PixelTrace& trace) const {
     const PixelTrace::Draws draws = trace.of(m_program);
-    const int counted = m_depth.read(trace.x(), trace.y()).stencil;
+    const int x = trace.x(), y = trace.y(), counted = m_depth.read(x, y).stencil;
     const std::vector<std::size_t> let_through = draws.passed();
     std::vector<std::size_t> faint, cut;
     for (const std::size_t number : draws.failed())
@@ -185,15 +222,17 @@ std::vector<PixelFact> StencilCap::explain(const PixelTrace& trace) const {
                        m_zcull ? "The fragments under min_alpha, or behind the depth that the coarse pass left."
                                : "The fragments under min_alpha, which use up no layer."),
         fragments_fact("cut", cut, "The fragments behind the cap."),
-        number_fact("stencil", counted, "How many fragments the stencil counted.")};
+        number_fact("stencil", counted,
+                    "How many fragments the stencil counted; more than the cap where it counts on.")};
     add_accumulated(facts, draws.color);
-    const bool filled = m_frame > 1 && counted >= m_layers;
-    m_gl.BindTextureUnit(first_method_texture_unit, m_previous.id());
-    const glm::vec3 fill_color(shade_texel(m_gl, m_fill, m_target, trace.x(), trace.y()));
+    const bool cuts = m_counts ? read_texel(m_gl, m_count, x, y).r > static_cast<float>(m_layers) : counted > m_layers;
+    const bool filled = m_frame > 1 && cuts;
+    bind_fill();
+    const glm::vec3 fill_color(shade_texel(m_gl, m_fill, m_target, x, y));
     facts.push_back(color_fact("fill", fill_color,
                                filled ? "What the previous frame's copy gave behind them."
-                                      : "What the previous frame's copy would give; not drawn, since the pixel is not "
-                                        "full or there is no previous frame."));
+                                      : "What the previous frame's copy would give; not drawn, since the cap hides "
+                                        "nothing here or there is no previous frame."));
     return facts;
 }
 
@@ -209,7 +248,8 @@ std::int64_t StencilCap::memory_bytes() const {
         std::int64_t{std::max(m_target.width_px() / 2, 1)} * std::max(m_target.height_px() / 2, 1);
     const std::int64_t coarse_pixels = m_zcull ? std::int64_t{m_coarse_width_px} * m_coarse_height_px : 0;
     return m_accumulation.memory_bytes() + m_depth.memory_bytes() +
-           2 * (pixels + half_pixels) * bytes_per_pixel(m_target.format()) + coarse_pixels * 8;
+           2 * (pixels + half_pixels) * bytes_per_pixel(m_target.format()) + coarse_pixels * 8 +
+           (m_counts ? 2 * pixels : 0);
 }
 
 }  // namespace sheer

@@ -33,8 +33,11 @@ class StencilCap : public Method {
     void draw_frame(gl::FrameTimer& timer) const;
     void prime_depth() const;
     void draw_capped() const;
+    void count_fragments() const;
     void fill() const;
+    void bind_fill() const;
     void keep_picture() const;
+    void make_counts(const MethodSetup& setup);
     gl::Texture history_texture() const;
 
     const gl::Functions& m_gl;
@@ -43,16 +46,18 @@ class StencilCap : public Method {
     int m_layers;
     int m_frames;
     bool m_zcull;
+    bool m_tests_alpha;
+    bool m_counts;    ///< in a pass of its own; else in the stencil
     int m_frame = 0;  ///< that was drawn last; 0 is none
     int m_coarse_width_px, m_coarse_height_px;
     OpaquePass m_opaque;
     Accumulation m_accumulation;
     OwnDepth m_depth;
     FullscreenPass m_fill;
-    gl::Program m_program, m_coarse_program, m_prime;
+    gl::Program m_program, m_coarse_program, m_prime, m_count_program;
     gl::Texture m_previous, m_current;
-    gl::Texture m_coarse_depth;
-    gl::Framebuffer m_coarse;
+    gl::Texture m_coarse_depth, m_count;
+    gl::Framebuffer m_coarse, m_count_framebuffer;
     gl::VertexArray m_no_vertices;
 };
 

@@ -1,7 +1,8 @@
 // Alpha testing: one of the alternatives that Hathaway weighs in "Alpha Blending as a Post-Process", GPU Pro (2010),
 // section 3.2. A fragment is either dropped or drawn as if it were opaque, with depth test and depth writes.
 // Good at: no sorting, no blending, intersections right per pixel. Bad at: translucency is lost, edges are jagged.
-// Parameters: `reference` 0..1, 0.5: the least alpha that is drawn.
+// Parameters: `reference` 0..1, 0.5: the least alpha that is drawn; `order` submission or near_to_far, which gives the
+// depth test something to reject, as the section says; the picture is the same.
 #include <algorithm>
 
 #include "renderer/methods/method.h"
@@ -16,9 +17,10 @@ class AlphaTest : public Method {
         : m_gl(setup.gl),
           m_scene(setup.scene),
           m_target(setup.target),
+          m_order(setup.parameters.at("order") == "near_to_far" ? Order::near_to_far : Order::submission),
           m_opaque(setup.gl, setup.scene, setup.target),
           m_program(setup.scene.make_program("alpha test", gl::shader_file("methods/alpha_test.glsl"))) {
-        m_program.set("u_reference", setup.parameters.at("reference").get<float>());
+        m_program.set("u_least_alpha", setup.scene.least_alpha(setup.parameters.at("reference")));
     }
 
     void render(gl::FrameTimer& timer) override {
@@ -27,7 +29,7 @@ class AlphaTest : public Method {
         begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
         m_gl.Enable(GL_DEPTH_TEST);
         m_gl.DepthFunc(GL_LEQUAL);
-        m_scene.draw_transparent(m_program, Order::submission);
+        m_scene.draw_transparent(m_program, m_order);
     }
 
     std::vector<PixelFact> explain(const PixelTrace& trace) const override {
@@ -37,7 +39,7 @@ class AlphaTest : public Method {
         return {fragment_fact("shown", draws.last_passed(),
                               "The fragment that is seen, the last that was drawn; none if what is behind is seen."),
                 fragments_fact("drawn", draws.passed(),
-                               "The fragments that passed the alpha and the depth test, in the order of submission; "
+                               "The fragments that passed the alpha and the depth test, in the order of drawing; "
                                "each hides the ones before it."),
                 fragments_fact("dropped", dropped, "The fragments of too little alpha, or behind one drawn before.")};
     }
@@ -46,6 +48,7 @@ class AlphaTest : public Method {
     const gl::Functions& m_gl;
     const Scene& m_scene;
     const Target& m_target;
+    Order m_order;
     OpaquePass m_opaque;
     gl::Program m_program;
 };
@@ -64,7 +67,9 @@ MethodInfo method_alpha_test() {
         .bad_at = "Nothing is translucent any more; edges are jagged and sparkle in motion.",
         .memory = "0 bytes per pixel",
         .needs_sorting = false,
-        .parameters = {Param::number("reference", "the least alpha that is drawn; at 0 everything is", "", 0.5, 0, 1)},
+        .parameters = {Param::number("reference", "the least alpha that is drawn; at 0 everything is", "", 0.5, 0, 1),
+                       Param::choice("order", "as submitted, or sorted so that near fragments stop far ones",
+                                     "submission", {"submission", "near_to_far"})},
         .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> { return std::make_unique<AlphaTest>(setup); },
     };
 }

@@ -27,7 +27,7 @@ class AlphaToCoverage : public Method {
         if (m_multisample.samples() != wanted)
             throw Unsupported("samples " + std::to_string(wanted) + ": this device has " +
                               std::to_string(m_multisample.samples()) + " samples per pixel at least");
-        m_program.set("u_reference", setup.parameters.at("reference").get<float>());
+        m_program.set("u_least_alpha", setup.scene.least_alpha(setup.parameters.at("reference")));
     }
 
     void render(gl::FrameTimer& timer) override {
@@ -85,7 +85,8 @@ MethodInfo method_alpha_to_coverage() {
         .parameters = {Param::integer("samples",
                                       "2 or 4 samples per pixel: the levels of coverage beside none; unsupported "
                                       "where the device does not have just as many",
-                                      "samples", 4, 2, 4),
+                                      "samples", 4, 2, 4)
+                           .in_steps_of(2),
                        Param::number("reference", "fragments of less alpha are dropped first; 0 drops none", "", 0, 0,
                                      1)},
         .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {

@@ -5,7 +5,9 @@
 //   full:   D + S - D A - D (sum 1/A_i)(prod A_i) + D (prod A_i)                (slides 28 to 34)
 // `full` is the whole order-independent part for four layers, for which the slides derive it; for one or two layers it
 // is wrong: one layer gives A C, without anything of D. Where no fragment has an alpha above 0, D stays.
-// Sums are kept in 16-bit floats as on slide 28, in 32-bit ones where the image is; only the result is clamped.
+// Sums are kept in 16-bit floats as on slide 28, in 32-bit ones where the image is; only the result is clamped. The
+// reciprocals and the product are in 32-bit floats always: in 16 bits 1/A_i would end at 65,504, which an alpha under
+// 1/65504 passes by itself, and the product would lose its digits.
 // Good at: many faint layers, such as smoke, without sorting. Bad at: alphas over about 0.3, where the terms left out
 // matter: up to 3 D for four layers of alpha 1 (slide 21). Parameters: `variant` simple or full, simple.
 #include <array>
@@ -38,9 +40,8 @@ class Meshkin : public Method {
             m_framebuffer = gl::make_framebuffer(m_gl, "meshkin: sums", std::array{m_sums.id()}, depth);
             return;
         }
-        const GLenum one_channel = m_in_32_bits ? GL_R32F : GL_R16F;
-        m_reciprocals = texture("reciprocals", one_channel);
-        m_products = texture("products", one_channel);
+        m_reciprocals = texture("reciprocals", GL_R32F);
+        m_products = texture("products", GL_R32F);
         m_framebuffer = gl::make_framebuffer(m_gl, "meshkin: sums", std::array{m_sums.id(), m_reciprocals.id()}, depth);
         m_product_framebuffer = gl::make_framebuffer(m_gl, "meshkin: products", std::array{m_products.id()}, depth);
         m_multiply = setup.scene.make_program("meshkin: multiply", gl::shader_file("methods/meshkin_multiply.glsl"));
@@ -68,7 +69,7 @@ class Meshkin : public Method {
 
     std::int64_t memory_bytes() const override {
         const std::int64_t pixels = std::int64_t{m_target.width_px()} * m_target.height_px();
-        return pixels * (m_in_32_bits ? 4 : 2) * (m_full ? 6 : 4);
+        return pixels * ((m_in_32_bits ? 16 : 8) + (m_full ? 8 : 0));
     }
 
     std::vector<PixelFact> explain(const PixelTrace& trace) const override {
@@ -84,7 +85,8 @@ class Meshkin : public Method {
                                         "R, the sum of one over each alpha that is not 0."));
         }
         bind_sums();
-        const double weight = sums.a == 0 ? 1 : shade_texel(m_gl, m_composite, m_target, x, y, 1).r;
+        const bool is_empty = m_full ? read_texel(m_gl, m_reciprocals, x, y).r == 0 : sums.a == 0;
+        const double weight = is_empty ? 1 : shade_texel(m_gl, m_composite, m_target, x, y, 1).r;
         facts.push_back(number_fact("opaque_weight", weight,
                                     m_full ? "What the opaque colour is weighed by beside S: 1 - A + P - R P."
                                            : "What the opaque colour is weighed by beside S: 1 - A."));
@@ -92,11 +94,7 @@ class Meshkin : public Method {
     }
 
   private:
-    /// What is not finite would spoil the sum of the reciprocals.
-    std::string prolog() const {
-        return std::string("#define FULL ") + (m_full ? "1" : "0") + "\n#define LARGEST " +
-               (m_in_32_bits ? "3.0e38" : "65504.0") + "\n";
-    }
+    std::string prolog() const { return std::string("#define FULL ") + (m_full ? "1" : "0") + "\n"; }
 
     gl::Texture texture(const std::string& what, GLenum format) const {
         return gl::make_texture_2d(m_gl, "meshkin: " + what, format, m_target.width_px(), m_target.height_px());
@@ -160,7 +158,7 @@ MethodInfo method_meshkin() {
         .bad_at =
             "Alphas over about 0.3: four layers of alpha 1 are off by up to three times the background. The full "
             "variant is derived for four layers and wrong for one or two: one layer loses the background.",
-        .memory = "8 bytes per pixel, 12 in the full variant; twice that with rgba32f",
+        .memory = "8 bytes per pixel, 16 with rgba32f; 8 more in the full variant",
         .needs_sorting = false,
         .parameters = {Param::choice("variant",
                                      "simple: D + S - D A; full: also the terms of the reciprocals and of the "

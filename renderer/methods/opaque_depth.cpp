@@ -6,14 +6,19 @@
 //                 triangle, so that under GREATER_EQUAL a later opaque fragment fails like a translucent one. When a
 //                 batch has used up the steps, the marks are merged into the stencil and the depth is cleared.
 //   target_alpha  As shader_depth, but between batches every pixel whose transmittance is used up gets the greatest
-//                 depth, read from the target itself: no stencil, and accumulated opacity marks as well.
+//                 depth, read from the target itself: no stencil, and accumulated opacity marks as well. `mark_pass`
+//                 alpha_test clears the depth and draws what passes; shader writes it everywhere, and clears nothing.
 //   two_pass      Every primitive twice: only its opaque fragments, which set the stencil; then its translucent ones.
+// `marks` static are the article's first attempt, one value for all opaque fragments: its fourth case, opaque behind
+// opaque, is blended again (unseen, since no transmittance is left); the findings count it.
 // OpenGL has no 16-bit depth with a stencil: with `depth_bits` 16 shader_depth uses 65,535 steps of a 24-bit buffer.
-// Good at: sprites and foliage with hard cores; the picture is F2B's. Bad at: the shader still runs for all but
-// two_pass, since it writes depth; two_pass draws every primitive by itself, twice. Parameters: `variant`; `depth_bits`
-// 16 to 24, 24: 2^bits - 1 steps; `batch` primitives between merges, 0 (default) for as many as there are steps.
-// two_pass takes no notice of the last two.
+// With 32 a step is the next smaller float, of which there are over 10^9 from 1 down to 0. Good at: sprites and foliage
+// with hard cores; the picture is F2B's. Bad at: the shader still runs for all but two_pass, since it writes depth;
+// two_pass draws every primitive by itself, twice. Parameters: `variant`; `marks` incremental or static; `depth_bits`
+// 16, 24 or 32, 24; `batch` primitives between merges, 0 (default) for as many as there are steps; `mark_pass`
+// alpha_test or shader, of target_alpha alone. two_pass takes no notice of the last four.
 #include <algorithm>
+#include <limits>
 
 #include "renderer/frame/accumulation.h"
 #include "renderer/frame/own_depth.h"
@@ -35,13 +40,21 @@ Variant variant_of(const MethodSetup& setup) {
 GLenum depth_format(Variant variant, int depth_bits) {
     switch (variant) {
         case Variant::shader_depth:
-            return GL_DEPTH24_STENCIL8;
+            return depth_bits == 32 ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
         case Variant::target_alpha:
-            return depth_bits == 16 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT24;
+            return depth_bits == 16   ? GL_DEPTH_COMPONENT16
+                   : depth_bits == 24 ? GL_DEPTH_COMPONENT24
+                                      : GL_DEPTH_COMPONENT32F;
         case Variant::two_pass:
             return GL_DEPTH32F_STENCIL8;
     }
     throw std::logic_error("unknown variant");
+}
+
+/// Steps of depth between 0 and 1: as many as fixed-point bits tell apart; of floats as many as there are.
+constexpr int float_steps = 0x3f800000;  // 1.0f in bits
+int steps_of(int depth_bits) {
+    return depth_bits == 32 ? float_steps : (1 << depth_bits) - 1;
 }
 
 /// Less than half of what the format can tell apart near 1; float formats could tell less, which is not worth a layer.
@@ -74,23 +87,28 @@ class OpaqueDepth : public Method {
           m_scene(setup.scene),
           m_target(setup.target),
           m_variant(variant_of(setup)),
-          m_greatest_mark((1 << setup.parameters.at("depth_bits").get<int>()) - 1),
-          m_batches(make_batches(setup.scene, setup.parameters.at("batch").get<std::size_t>(),
-                                 static_cast<std::size_t>(first_mark()))),
+          m_static(setup.parameters.at("marks") == "static"),
+          m_shader_marks(setup.parameters.at("mark_pass") == "shader"),
+          m_steps(steps_of(setup.parameters.at("depth_bits").get<int>())),
+          m_batches(make_batches(
+              setup.scene, setup.parameters.at("batch").get<std::size_t>(),
+              m_static ? std::numeric_limits<std::size_t>::max() : static_cast<std::size_t>(m_steps - first_step()))),
           m_opaque(setup.gl, setup.scene, setup.target),
           m_accumulation(setup.gl, setup.target, setup.target.format()),
           m_depth(setup.gl, setup.target, m_accumulation.readable_alpha().id(),
                   depth_format(m_variant, setup.parameters.at("depth_bits").get<int>())),
           m_merge(setup.gl, "opaque depth: merge", gl::shader_file("methods/opaque_depth_merge.glsl")),
-          m_saturated(setup.gl, "opaque depth: saturated", gl::shader_file("common/saturated.glsl")) {
+          m_saturated(setup.gl, "opaque depth: saturated",
+                      gl::shader_file(m_shader_marks ? "methods/opaque_depth_mark.glsl" : "common/saturated.glsl")) {
         m_saturated.program().set("u_threshold", half_step(setup.target.format()));
         if (m_variant == Variant::two_pass) {
             m_program = make_program(setup, "#define OPAQUE_ONLY\n");
             m_translucent = make_program(setup, "#define TRANSLUCENT_ONLY\nlayout(early_fragment_tests) in;\n");
         } else {
             m_program = make_program(setup, "#define SHADER_DEPTH\n");
-            m_program.set("u_first_mark", first_mark());
-            m_program.set("u_greatest_mark", m_greatest_mark);
+            m_program.set("u_first", first_step());
+            m_program.set("u_step", m_static ? 0 : 1);
+            m_program.set("u_steps", m_steps == float_steps ? 0 : m_steps);
         }
     }
 
@@ -135,9 +153,11 @@ class OpaqueDepth : public Method {
             (blended.empty() || fragment.number < blended.back() ? transparent : behind).push_back(fragment.number);
         }
         std::vector<PixelFact> facts = {
-            fragment_fact("closed_by", closing,
-                          "The fragment after which the pixel was marked: an opaque one, or with target_alpha the last "
-                          "of a batch that used up the transmittance; none if it was not marked."),
+            fragment_fact(
+                "closed_by", closing,
+                "The fragment after which the pixel was marked: an opaque one, or with target_alpha the last "
+                "of a batch that used up the transmittance; with static marks the last opaque one; none if it was "
+                "not marked."),
             fragments_fact("blended", blended, "The fragments that were blended, near to far."),
             fragments_fact("dropped", transparent, "The fully transparent fragments between them."),
             fragments_fact("behind", behind,
@@ -145,6 +165,17 @@ class OpaqueDepth : public Method {
                            "transparent.")};
         add_accumulated(facts, color);
         return facts;
+    }
+
+    /// {"blended_again": n} for static marks: opaque fragments of a frame that were blended behind another opaque one
+    /// of their batch. It is how many more samples pass than with incremental marks.
+    nlohmann::json findings(gl::FrameTimer& timer) override {
+        if (!m_static || m_variant == Variant::two_pass) return nlohmann::json::object();
+        const std::int64_t with_static = samples_of_frame(timer);
+        m_program.set("u_step", 1);
+        const std::int64_t with_incremental = samples_of_frame(timer);
+        m_program.set("u_step", 0);
+        return {{"blended_again", with_static - with_incremental}};
     }
 
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes() + m_depth.memory_bytes(); }
@@ -158,7 +189,17 @@ class OpaqueDepth : public Method {
     }
 
     /// The greatest mark of target_alpha belongs to what earlier batches closed.
-    int first_mark() const { return m_variant == Variant::target_alpha ? m_greatest_mark - 1 : m_greatest_mark; }
+    int first_step() const { return m_variant == Variant::target_alpha ? 1 : 0; }
+
+    std::int64_t samples_of_frame(gl::FrameTimer& timer) {
+        const gl::Query query = gl::make_query(m_gl, "opaque depth: samples", GL_SAMPLES_PASSED);
+        m_gl.BeginQuery(GL_SAMPLES_PASSED, query.id());
+        render(timer);
+        m_gl.EndQuery(GL_SAMPLES_PASSED);
+        GLuint samples = 0;
+        m_gl.GetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &samples);
+        return samples;
+    }
 
     /// Of two passes, what the opaque one let through. Else the last fragment that was drawn, if there is a mark: after
     /// a mark nothing is.
@@ -195,10 +236,14 @@ class OpaqueDepth : public Method {
     }
 
     void mark_saturated() const {
-        m_depth.clear(0);
+        if (m_shader_marks) {
+            m_depth.begin_depth_only();
+        } else {
+            m_depth.clear(0);
+            m_gl.DepthRange(1, 1);
+        }
         m_gl.Enable(GL_DEPTH_TEST);
         m_gl.DepthFunc(GL_ALWAYS);
-        m_gl.DepthRange(1, 1);
         m_gl.BindTextureUnit(first_method_texture_unit, m_accumulation.readable_alpha().id());
         m_saturated.draw();
     }
@@ -225,7 +270,8 @@ class OpaqueDepth : public Method {
     const Scene& m_scene;
     const Target& m_target;
     Variant m_variant;
-    int m_greatest_mark;
+    bool m_static, m_shader_marks;
+    int m_steps;
     std::vector<std::size_t> m_batches;
     OpaquePass m_opaque;
     Accumulation m_accumulation;
@@ -248,15 +294,27 @@ MethodInfo method_opaque_depth() {
             "Opacity that builds up from translucent layers closes nothing (but in target_alpha); shading is not "
             "saved where the shader writes depth.",
         .memory = "one pixel of the image format and 2 to 8 bytes of depth and stencil",
-        .parameters = {Param::choice(
-                           "variant",
+        .parameters =
+            {Param::choice("variant",
                            "how a pixel is marked: by the depth that the shader writes, merged into the "
                            "stencil; also by the target's alpha between batches; or by two passes a primitive",
                            "shader_depth", {"shader_depth", "target_alpha", "two_pass"}),
-                       Param::integer("depth_bits", "2^bits - 1 triangles can be told apart before a merge", "bits", 24,
-                                      16, 24),
-                       Param::integer("batch", "primitives between merges; 0 for as many as the depth has steps for",
-                                      "", 0, 0, 1000000)},
+             Param::choice("marks",
+                           "incremental: each triangle's opaque fragments get a smaller depth; static: one "
+                           "depth for all, so that opaque behind opaque is blended again (counted in the "
+                           "findings)",
+                           "incremental", {"incremental", "static"}),
+             Param::integer("depth_bits",
+                            "16, 24 or 32: 2^bits - 1 triangles can be told apart before a merge; of 32 bits, "
+                            "which are floats, about 2^30",
+                            "bits", 24, 16, 32)
+                 .in_steps_of(8),
+             Param::integer("batch", "primitives between merges; 0 for as many as the depth has steps for", "", 0, 0,
+                            1000000),
+             Param::choice("mark_pass",
+                           "target_alpha's: an alpha test after a clear, or a shader that writes the depth of "
+                           "every pixel",
+                           "alpha_test", {"alpha_test", "shader"})},
         .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {
             return std::make_unique<OpaqueDepth>(setup);
         },

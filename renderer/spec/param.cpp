@@ -69,6 +69,15 @@ std::string range_text(const Param& param) {
     return "finite";
 }
 
+/// What an integer in steps may be; for fields of few values.
+std::vector<std::int64_t> values_of(const Param& param) {
+    std::vector<std::int64_t> values;
+    for (auto value = static_cast<std::int64_t>(param.min); value <= static_cast<std::int64_t>(param.max);
+         value += param.step)
+        values.push_back(value);
+    return values;
+}
+
 std::vector<std::string> names_of(const std::vector<Param>& fields) {
     std::vector<std::string> names;
     for (const Param& param : fields) names.push_back(param.name);
@@ -122,6 +131,8 @@ class ValueReader {
     json integer(const json& value) {
         if (!is_whole(value)) return wrong("must be a whole number " + range_text(m_param), value);
         if (!in_range(m_param, value.get<double>())) return wrong("must be " + range_text(m_param), value);
+        if (m_param.step > 1 && std::ranges::count(values_of(m_param), value.get<std::int64_t>()) == 0)
+            return wrong(fmt::format("must be one of {}", fmt::join(values_of(m_param), ", ")), value);
         return value.get<std::int64_t>();
     }
 
@@ -245,6 +256,7 @@ json value_schema(const Param& param) {
             break;
         case Param::Kind::integer:
             schema["type"] = "integer";
+            if (param.step > 1) schema["enum"] = values_of(param);
             break;
         case Param::Kind::boolean:
             schema["type"] = "boolean";
@@ -388,6 +400,12 @@ Param Param::required() const {
     return param;
 }
 
+Param Param::in_steps_of(int allowed_step) const {
+    Param param = *this;
+    param.step = allowed_step;
+    return param;
+}
+
 json read_fields(const json& object, const std::string& pointer, const std::vector<Param>& fields,
                  std::vector<FieldError>& errors) {
     json result = json::object();
@@ -428,6 +446,7 @@ json to_json(const std::vector<Param>& fields) {
         if (param.exclusive) one["exclusive"] = true;
         if (param.whole) one["whole"] = true;
         if (!param.suggestion.is_null()) one["suggestion"] = param.suggestion;
+        if (param.step > 1) one["step"] = param.step;
         if (param.optional) one["optional"] = true;
         if (!param.choices.empty()) one["choices"] = param.choices;
         if (!param.asset_type.empty()) one["asset_type"] = param.asset_type;

@@ -24,6 +24,7 @@ struct Param {
     double max = std::numeric_limits<double>::infinity();
     bool exclusive = false;            ///< min and max themselves are not allowed
     bool whole = false;                ///< of numbers: each is a whole number
+    int step = 1;                      ///< of an integer: min and every step-th number from there are allowed
     std::vector<std::string> choices;  ///< of a choice; of an asset: the names that mean something built in
     std::string asset_type;            ///< of an asset: texture, model or volume
     std::size_t min_length = 0;        ///< of text (bytes), numbers and lists
@@ -56,6 +57,8 @@ struct Param {
 
     /// The same field without a default; what was the default is the suggestion.
     Param required() const;
+    /// An integer of which only min, min + step, ... to max are allowed.
+    Param in_steps_of(int step) const;
 };
 
 /// Reads `object` by its description: checks types and ranges, fills in defaults, adds an error for each wrong, missing

@@ -1,4 +1,4 @@
-uniform float u_reference;
+uniform float u_least_alpha;
 
 // No blending, alpha masked off; it becomes the samples that are covered. Depth test and depth writes.
 layout(location = 0) out vec4 o_color;
@@ -6,6 +6,6 @@ layout(location = 0) out vec4 o_color;
 void main() {
     begin_fragment();
     vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
-    if (work.a < u_reference) discard;
+    if (work.a < u_least_alpha) discard;
     o_color = work;
 }

@@ -1,8 +1,10 @@
-// Slide 29. Set before: FULL, 0 or 1; LARGEST, the largest number that the targets hold.
+// Slide 29. Set before: FULL, 0 or 1.
 
 layout(location = 0) out vec4 o_sums;  // blend ONE, ONE
 #if FULL
-layout(location = 1) out float o_reciprocals;  // blend ONE, ONE
+layout(location = 1) out float o_reciprocals;  // blend ONE, ONE; 32 bits
+
+const float largest = 3.0e38;  // an infinity would make the composite's product undefined
 #endif
 
 void main() {
@@ -11,6 +13,6 @@ void main() {
     if (work.a == 0.0) discard;
     o_sums = vec4(work.rgb * work.a, work.a);
 #if FULL
-    o_reciprocals = min(1.0 / work.a, LARGEST);
+    o_reciprocals = min(1.0 / work.a, largest);
 #endif
 }

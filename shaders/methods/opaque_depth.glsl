@@ -9,11 +9,19 @@ layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC
 // The depth buffer holds marks, so what the opaque pass hides is told from its depth as a texture.
 layout(binding = 9) uniform sampler2D u_opaque_depth;
 
-// Marks count down from u_first_mark, one for each triangle, and stay above the 0 of translucent fragments.
-uniform int u_first_mark, u_greatest_mark;
-
 // Places of triangles in the order of drawing: of the first of this draw, and of the first of the batch.
 uniform int u_first_triangle, u_batch_triangle;
+
+// Marks stay above the 0 of translucent fragments. The first is the u_first-th step under the greatest depth, 1; each
+// triangle goes u_step further down. A step is one of u_steps equal ones; in a depth buffer of floats, where that is 0, it
+// is the next smaller float.
+uniform int u_first, u_step, u_steps;
+
+float mark() {
+    int number = u_first + u_step * (u_first_triangle - u_batch_triangle + gl_PrimitiveID);
+    if (u_steps == 0) return intBitsToFloat(max(floatBitsToInt(1.0) - number, 1));
+    return float(max(u_steps - number, 1)) / float(u_steps);
+}
 #endif
 
 void main() {
@@ -25,8 +33,7 @@ void main() {
     bool is_opaque = work.a > 1.0 - u_half_step;
     if (work.a < u_half_step) discard;
 #if defined(SHADER_DEPTH)
-    int steps = u_first_triangle - u_batch_triangle + gl_PrimitiveID;
-    gl_FragDepth = is_opaque ? float(max(u_first_mark - steps, 1)) / float(u_greatest_mark) : 0.0;
+    gl_FragDepth = is_opaque ? mark() : 0.0;
 #elif defined(OPAQUE_ONLY)
     if (!is_opaque) discard;
 #else

@@ -84,7 +84,7 @@ TEST_F(AlphaToCoverage, TwoSamplesOrUnsupported) {
     } catch (const Unsupported& unsupported) {
         EXPECT_EQ(std::string(unsupported.what()), "samples 2: this device has 4 samples per pixel at least");
     }
-    EXPECT_THROW(gray_of(layers, coverage(3)), Unsupported);
+    EXPECT_THROW(gray_of(layers, coverage(3)), SpecError);
 }
 
 TEST_F(AlphaToCoverage, OpaqueInFrontBehindBetween) {

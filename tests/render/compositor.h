@@ -16,6 +16,7 @@ class Compositor {
         float depth;
         double alpha;
         Color color;
+        std::size_t submitted = 0;  ///< place among the transparent layers
     };
     /// What a pixel holds: the opaque picture, and the transparent fragments that it does not hide, as submitted.
     struct Stack {
@@ -32,6 +33,7 @@ class Compositor {
         meshkin_simple,
         meshkin_full,
         ssam,
+        ssam_and_two_after,
         alpha_to_coverage
     };
 
@@ -53,9 +55,13 @@ class Compositor {
                 stack.below = layer.color;
             }
         }
-        for (const Layer& layer : m_layers)
-            if (!layer.opaque && covers(layer, x, y) && layer.depth <= opaque_depth)
-                stack.fragments.push_back({layer.depth, layer.alpha, layer.color});
+        std::size_t submitted = 0;
+        for (const Layer& layer : m_layers) {
+            if (layer.opaque) continue;
+            if (covers(layer, x, y) && layer.depth <= opaque_depth)
+                stack.fragments.push_back({layer.depth, layer.alpha, layer.color, submitted});
+            ++submitted;
+        }
         return stack;
     }
 
@@ -77,6 +83,8 @@ class Compositor {
                 return meshkin(seen, true);
             case Order::ssam:
                 return ssam(seen);
+            case Order::ssam_and_two_after:
+                return ssam_and_after(seen, 2);
             case Order::alpha_to_coverage:
                 return alpha_to_coverage(seen, 4);
         }
@@ -133,6 +141,26 @@ class Compositor {
         }
         const double mask = 0.15 * greatest + 0.85 * std::min(sum, 1.0);
         return mix(stack.below, nearest(stack, 64.0 / 255, {0, 0, 0}), mask * mask);
+    }
+
+    /// SSAM of all but the last `count` layers as submitted; these over it where they are not behind its foliage: the
+    /// nearest fragment from 64/255 up.
+    Color ssam_and_after(const Stack& stack, std::size_t count) const {
+        const auto transparent =
+            static_cast<std::size_t>(std::ranges::count_if(m_layers, [](const Layer& layer) { return !layer.opaque; }));
+        Stack foliage{stack.below, {}}, after;
+        float foliage_depth = 2;
+        for (const Fragment& fragment : stack.fragments)
+            if (fragment.submitted + count < transparent) {
+                foliage.fragments.push_back(fragment);
+                if (fragment.alpha >= 64.0 / 255) foliage_depth = std::min(foliage_depth, fragment.depth);
+            }
+        for (const Fragment& fragment : stack.fragments)
+            if (fragment.submitted + count >= transparent && fragment.depth <= foliage_depth)
+                after.fragments.push_back(fragment);
+        std::ranges::stable_sort(after.fragments, std::greater(), &Fragment::depth);
+        after.below = ssam(foliage);
+        return over(after);
     }
 
     /// Of n samples a fragment covers those i with alpha > i / n, which is llvmpipe's rule; each shows its nearest one.

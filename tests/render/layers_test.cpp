@@ -16,7 +16,7 @@ constexpr int size_px = 32;
 struct MethodRow {
     nlohmann::json method;
     Compositor::Order order;
-    bool rounds_each_layer;  // blends in the target's format; false where it blends in floats and composites once
+    bool rounds_each_layer;  // blends in the target's format; false where it blends in floats and is rounded once
     double (*own_tolerance)(PixelFormat format, double layers) = nullptr;  // where neither of these is how it rounds
     bool software_only = false;  // the formula is llvmpipe's; other devices have rules of their own
 };
@@ -40,11 +40,21 @@ double ssam_tolerance(PixelFormat format, double layers) {
     return (layers + 1.5) * (format == PixelFormat::rgba8 ? 1.0 / 255 : 0x1p-10);
 }
 
+/// Each sample is rounded, and their mean.
+double coverage_tolerance(PixelFormat format, double) {
+    return format == PixelFormat::rgba8 ? 1.0 / 255 : format == PixelFormat::rgba16f ? 0x1p-10 : 1e-5;
+}
+
 const std::vector<MethodRow>& rows() {
     using Order = Compositor::Order;
     static const std::vector<MethodRow> all = {
         {{{"id", "b2f"}}, Order::by_depth, true},
         {{{"id", "f2b"}}, Order::by_depth, true},
+        {{{"id", "f2b"}, {"alpha_factors", "dst_alpha_zero"}, {"label", "f2b by target"}}, Order::by_depth, true},
+        {{{"id", "f2b"}, {"inverted", false}, {"label", "f2b opacity"}}, Order::by_depth, true},
+        {{{"id", "f2b"}, {"inverted", false}, {"alpha_factors", "dst_alpha_zero"}, {"label", "f2b opacity by target"}},
+         Order::by_depth,
+         true},
         // At threshold 0 nothing is under the threshold, so nothing may be discarded.
         {{{"id", "f2bd"}, {"threshold", 0}}, Order::by_depth, true},
         {{{"id", "f2bd"}, {"threshold", 0}, {"alpha_target", "separate"}, {"label", "separate"}},
@@ -53,8 +63,43 @@ const std::vector<MethodRow>& rows() {
         {{{"id", "f2bd"}, {"threshold", 0}, {"feedback", "framebuffer_fetch"}, {"batch", 3}, {"label", "fetch"}},
          Order::by_depth,
          true},
+        {{{"id", "f2bd"},
+          {"threshold", 0},
+          {"form", "if_discard"},
+          {"sync", "flush"},
+          {"batch", 3},
+          {"label", "flush"}},
+         Order::by_depth,
+         true},
+        {{{"id", "f2bd"}, {"threshold", 0}, {"sync", "finish"}, {"batch", 3}, {"label", "finish"}},
+         Order::by_depth,
+         true},
+        {{{"id", "f2bd"}, {"threshold", 0}, {"inverted", false}, {"label", "f2bd opacity"}}, Order::by_depth, true},
+        {{{"id", "f2bd"},
+          {"threshold", 0},
+          {"inverted", false},
+          {"alpha_target", "separate"},
+          {"alpha_factors", "dst_alpha_zero"},
+          {"label", "separate opacity by target"}},
+         Order::by_depth,
+         true},
+        {{{"id", "f2bd"},
+          {"threshold", 0},
+          {"inverted", false},
+          {"alpha_target", "separate"},
+          {"label", "separate opacity"}},
+         Order::by_depth,
+         true},
+        {{{"id", "f2bd"},
+          {"threshold", 0},
+          {"alpha_target", "separate"},
+          {"alpha_factors", "dst_alpha_zero"},
+          {"label", "separate by target"}},
+         Order::by_depth,
+         true},
         // The transmittance starts at 0, so neither layers nor background come through.
         {{{"id", "f2bx"}}, Order::black, true},
+        {{{"id", "f2bx"}, {"inverted", false}, {"label", "f2bx opacity"}}, Order::black, true},
         // At threshold 0 nothing is marked.
         {{{"id", "depth_marks"}, {"threshold", 0}, {"interval", 3}}, Order::by_depth, true},
         {{{"id", "opaque_depth"}, {"batch", 3}}, Order::by_depth, true},
@@ -62,6 +107,26 @@ const std::vector<MethodRow>& rows() {
          Order::by_depth,
          true},
         {{{"id", "opaque_depth"}, {"variant", "two_pass"}, {"label", "two_pass"}}, Order::by_depth, true},
+        {{{"id", "opaque_depth"}, {"marks", "static"}, {"label", "static"}}, Order::by_depth, true},
+        {{{"id", "opaque_depth"}, {"marks", "static"}, {"batch", 3}, {"depth_bits", 32}, {"label", "static 32"}},
+         Order::by_depth,
+         true},
+        {{{"id", "opaque_depth"},
+          {"variant", "target_alpha"},
+          {"marks", "static"},
+          {"batch", 3},
+          {"mark_pass", "shader"},
+          {"label", "static, marked by a shader"}},
+         Order::by_depth,
+         true},
+        {{{"id", "opaque_depth"},
+          {"variant", "target_alpha"},
+          {"batch", 3},
+          {"mark_pass", "shader"},
+          {"depth_bits", 32},
+          {"label", "marked by a shader"}},
+         Order::by_depth,
+         true},
         // No pixel reaches the cap, so nothing is cut off or guessed.
         {{{"id", "stencil_cap"}, {"layers", 17}, {"min_alpha", 0}, {"frames", 2}}, Order::by_depth, true},
         {{{"id", "stencil_cap"}, {"layers", 17}, {"min_alpha", 0}, {"frames", 2}, {"zcull", true}, {"label", "zcull"}},
@@ -69,6 +134,7 @@ const std::vector<MethodRow>& rows() {
          true},
         {{{"id", "unsorted"}}, Order::by_submission, true},
         {{{"id", "alpha_test"}}, Order::alpha_test, true},
+        {{{"id", "alpha_test"}, {"order", "near_to_far"}, {"label", "sorted alpha test"}}, Order::alpha_test, true},
         {{{"id", "meshkin"}}, Order::meshkin_simple, false, meshkin_tolerance},
         {{{"id", "meshkin"}, {"variant", "full"}, {"label", "full"}},
          Order::meshkin_full,
@@ -76,7 +142,11 @@ const std::vector<MethodRow>& rows() {
          meshkin_full_tolerance},
         {{{"id", "ssam"}}, Order::ssam, false, ssam_tolerance},
         {{{"id", "ssam"}, {"opaque_msaa", 2}, {"label", "ssam msaa"}}, Order::ssam, false, ssam_tolerance},
-        {{{"id", "alpha_to_coverage"}}, Order::alpha_to_coverage, false, nullptr, true},
+        {{{"id", "ssam"}, {"drawn_after", 2}, {"label", "ssam and two after"}},
+         Order::ssam_and_two_after,
+         false,
+         ssam_tolerance},
+        {{{"id", "alpha_to_coverage"}}, Order::alpha_to_coverage, false, coverage_tolerance, true},
         {{{"id", "exact"}, {"form", "lists"}, {"label", "lists"}}, Order::by_depth, false},
         {{{"id", "exact"}, {"form", "sorted"}, {"label", "sorted"}}, Order::by_depth, false},
         {{{"id", "depth_peeling"}}, Order::by_depth, false},
@@ -88,12 +158,14 @@ const std::vector<MethodRow>& rows() {
 double tolerance(const MethodRow& row, PixelFormat format, std::size_t layers) {
     const auto count = static_cast<double>(layers);
     if (row.own_tolerance != nullptr) return row.own_tolerance(format, count);
-    // Composited once: the opaque picture, what is laid over it and the product are each rounded, by half a level at
-    // most.
-    const double roundings = row.rounds_each_layer ? count : 1.5;
+    // Rounded once, by half a level at most; else once a layer, and front to back once more where it is laid over the
+    // opaque picture.
+    const std::string id = row.method.at("id");
+    const bool straight = id == "b2f" || id == "unsorted" || id == "alpha_test";
+    const double roundings = !row.rounds_each_layer ? 0.501 : straight ? count : count + 1;
     switch (format) {
         case PixelFormat::rgba8:
-            return roundings / 255;  // 1/255 per blended layer
+            return roundings / 255;  // 1/255 per rounding of colour and transmittance
         case PixelFormat::rgba16f:
             return roundings * 0x1p-10;  // 11 significant bits, colour and transmittance
         case PixelFormat::rgba32f:

@@ -32,7 +32,7 @@ Compositor::Color stencil_cap(Compositor::Stack stack, int frames) {
     constexpr std::size_t cap = 8;
     std::erase_if(stack.fragments, [](const auto& fragment) { return fragment.alpha < 0.02; });
     std::ranges::stable_sort(stack.fragments, std::greater(), &Compositor::Fragment::depth);
-    if (stack.fragments.size() < cap) return Compositor::over(stack);
+    if (stack.fragments.size() <= cap) return Compositor::over(stack);
     stack.fragments.erase(stack.fragments.begin(), stack.fragments.end() - cap);
     for (int frame = 1; frame < frames; ++frame) stack.below = Compositor::over(stack);
     return Compositor::over(stack);

@@ -57,6 +57,53 @@ TEST(OpaqueDepth, OpaqueBehindOpaqueIsStopped) {
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("two_pass")), 1 + composite + depth_copy);
 }
 
+/// With static marks each of the four is blended, three of them again; a wall of other alphas between changes nothing.
+TEST(OpaqueDepth, StaticMarksBlendOpaqueBehindOpaqueAgain) {
+    for (const std::string variant : {"shader_depth", "target_alpha"})
+        for (const int bits : {16, 24, 32}) {
+            nlohmann::json method = opaque_depth(variant, 0, bits);
+            method["marks"] = "static";
+            EXPECT_EQ(samples_per_pixel(full_layers({1, 1, 1, 1}), method), 4 + composite) << variant << bits;
+            EXPECT_EQ(samples_per_pixel(full_layers({0.5, 1, 0.5, 1, 0}), method), 3 + composite) << variant << bits;
+        }
+}
+
+TEST(OpaqueDepth, FindingsCountWhatIsBlendedAgain) {
+    const auto context = make_context("egl");
+    const auto blended_again = [&](const std::string& variant, const std::string& marks, int batch) {
+        nlohmann::json method = opaque_depth(variant, batch);
+        method["marks"] = marks;
+        const Spec spec = make_spec(full_layers({0.5, 1, 0.5, 1, 1, 0.25}), nlohmann::json::array({method}), size_px);
+        Stage stage(*context, spec, PixelFormat::rgba8);
+        const auto made = stage.make(spec.methods[0]);
+        stage.frame(*made);
+        const Image before = stage.target().read();
+        gl::FrameTimer timer(*context);
+        timer.begin_frame(false);
+        const nlohmann::json found = made->findings(timer);
+        timer.end_frame();
+        stage.frame(*made);
+        EXPECT_EQ(greatest_difference(before, stage.target().read()), 0);
+        return found;
+    };
+    // Two opaque fragments lie behind the first one.
+    EXPECT_EQ(blended_again("shader_depth", "static", 0)["blended_again"], 2 * pixels);
+    EXPECT_EQ(blended_again("target_alpha", "static", 0)["blended_again"], 2 * pixels);
+    // Batches of four: the second of the two is stopped by the merge.
+    EXPECT_EQ(blended_again("shader_depth", "static", 4)["blended_again"], pixels);
+    EXPECT_EQ(blended_again("shader_depth", "incremental", 0), nlohmann::json::object());
+    EXPECT_EQ(blended_again("two_pass", "static", 0), nlohmann::json::object());
+}
+
+/// The pass draws every pixel, marked or not; an alpha test draws those that it marks.
+TEST(OpaqueDepth, MarksByAShaderInsteadOfAClear) {
+    nlohmann::json method = opaque_depth("target_alpha", 1);
+    const nlohmann::json scene = full_layers({0.5, 0, 1, 0.5, 1, 0.5});
+    EXPECT_EQ(samples_per_pixel(scene, method), 2 + 3 + composite);
+    method["mark_pass"] = "shader";
+    EXPECT_EQ(samples_per_pixel(scene, method), 2 + 5 + composite);
+}
+
 /// A merge is one sample where the pixel is open still, none where its depth or stencil is set. Six batches of one:
 /// five merges, of which the first two find the pixel open.
 TEST(OpaqueDepth, MergesKeepThePixelClosed) {
@@ -111,7 +158,12 @@ TEST(OpaqueDepth, PictureIsThatOfF2b) {
     nlohmann::json methods = {"f2b"};
     for (const std::string& variant : variants())
         for (const int batch : {0, 1, 3})
-            for (const int bits : {16, 24}) methods.push_back(opaque_depth(variant, batch, bits));
+            for (const int bits : {16, 24, 32}) {
+                methods.push_back(opaque_depth(variant, batch, bits));
+                methods.push_back(opaque_depth(variant, batch, bits));
+                methods.back()["marks"] = "static";
+                methods.back()["mark_pass"] = "shader";
+            }
     const nlohmann::json leaves = {
         {"type", "quads"}, {"count", 60}, {"shading", "1-texture"}, {"texture", {{"image", "leaf"}, {"size", 64}}}};
     const auto context = make_context("egl");
@@ -153,12 +205,17 @@ TEST(OpaqueDepth, OpaqueGeometryByHand) {
 TEST(OpaqueDepth, SaysWhatItTakes) {
     const auto context = make_context("egl");
     const nlohmann::json methods = {opaque_depth("shader_depth"), opaque_depth("target_alpha", 0, 16),
-                                    opaque_depth("two_pass")};
+                                    opaque_depth("two_pass"), opaque_depth("shader_depth", 0, 32),
+                                    opaque_depth("target_alpha", 0, 32)};
     const Spec spec = make_spec(full_layers({0.5}), methods, size_px);
     Stage stage(*context, spec, PixelFormat::rgba8);
     EXPECT_EQ(stage.make(spec.methods[0])->memory_bytes(), pixels * (4 + 4));
     EXPECT_EQ(stage.make(spec.methods[1])->memory_bytes(), pixels * (4 + 2));
     EXPECT_EQ(stage.make(spec.methods[2])->memory_bytes(), pixels * (4 + 8));
+    EXPECT_EQ(stage.make(spec.methods[3])->memory_bytes(), pixels * (4 + 8));
+    EXPECT_EQ(stage.make(spec.methods[4])->memory_bytes(), pixels * (4 + 4));
+    EXPECT_THROW(make_spec(full_layers({0.5}), nlohmann::json::array({opaque_depth("shader_depth", 0, 20)})),
+                 SpecError);
 }
 
 }  // namespace

@@ -103,13 +103,14 @@ nlohmann::json half_white_layers(int count) {
 }
 
 /// Depth copy, 3 of 10 layers, fill and composite. With zcull one depth for each of the 4 x 4 coarse pixels, and two
-/// triangles for each that cover the picture.
+/// triangles for each that cover the picture; and all layers once more to be counted.
 TEST_F(StencilCapTest, DrawsAsManyLayersAsTheCap) {
     EXPECT_EQ(samples(half_white_layers(10), cap(3, 2)), pixels * (1 + 3 + 1 + 1));
     EXPECT_EQ(samples(half_white_layers(10), cap(3, 1)), pixels * (1 + 3 + 1));
     EXPECT_EQ(samples(half_white_layers(2), cap(3, 2)), pixels * (1 + 2 + 1));
-    EXPECT_EQ(samples(half_white_layers(10), cap(3, 2, 0, true)), pixels * (1 + 3 + 1 + 1) + pixels / 16 + pixels);
-    EXPECT_EQ(samples(half_white_layers(2), cap(3, 2, 0, true)), pixels * (1 + 2 + 1));
+    EXPECT_EQ(samples(half_white_layers(10), cap(3, 2, 0, true)),
+              pixels * (1 + 3 + 1 + 1) + pixels / 16 + pixels + pixels * 10);
+    EXPECT_EQ(samples(half_white_layers(2), cap(3, 2, 0, true)), pixels * (1 + 2 + 1) + pixels * 2);
 }
 
 /// Even picture, two layers of alpha 0.5 let through: A = 0.75 c, T = 0.25. P(1) = A + T D, P(n) = A + T P(n - 1), so
@@ -149,11 +150,13 @@ TEST_F(StencilCapTest, TheRunHasTheChangePerFrame) {
         EXPECT_NEAR(of_cap["change_per_frame"][i].get<double>(), 0.8 * 0.75 * std::pow(0.25, i + 1), 1e-6) << i;
 }
 
-/// Black at 0.5 before white up to column 3 and black from there: P(1) is 0.5 and 0. At half the size the columns are
-/// 0.5, (0.5 + 0) / 2, 0, 0, ...; drawn back at full size between their middles they weigh 3/4 and 1/4.
+/// A clear layer behind is what the cap hides. Black at 0.5 before white up to column 3 and black from there: P(1) is
+/// 0.5 and 0. At half the size the columns are 0.5, (0.5 + 0) / 2, 0, 0, ...; drawn back at full size between their
+/// middles they weigh 3/4 and 1/4.
 TEST_F(StencilCapTest, FillsWithTheHalvedPreviousFrame) {
     const nlohmann::json layers = {
         {{"rect", {0, 0, 1, 1}}, {"depth", 0.5}, {"color", {0, 0, 0}}, {"alpha", 0.5}},
+        full_layer(0.7, {0, 1, 1}, 0),
         {{"rect", {0, 0, 3.0 / size_px, 1}}, {"depth", 0.8}, {"color", {1, 1, 1}}, {"opaque", true}},
         {{"rect", {3.0 / size_px, 0, 1, 1}}, {"depth", 0.8}, {"color", {0, 0, 0}}, {"opaque", true}}};
     const Image first = picture(layers_scene(layers), cap(1, 1)), second = picture(layers_scene(layers), cap(1, 2));
@@ -169,6 +172,45 @@ TEST_F(StencilCapTest, NothingIsGuessedUnderTheCap) {
     const Image image = picture(half_white_layers(2), cap(3, 5));
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(image.pixel(4, 4)[i], 0.75 * (std::array{1.0, 0.5, 0.0}[i]) + 0.25 * background[i], 1e-6);
+}
+
+/// Nor where the cap is just reached, and nothing more is there: whether the alpha test counts, or the stencil alone,
+/// or a pass of its own; nor where opaque geometry hides all that comes after, or the alpha test drops it.
+TEST_F(StencilCapTest, NothingIsGuessedWhereNothingIsHidden) {
+    const nlohmann::json two = {full_layer(0.2, {1, 0.5, 0}, 0.5), full_layer(0.3, {1, 0.5, 0}, 0.5)};
+    const auto with = [&](std::vector<nlohmann::json> more) {
+        nlohmann::json layers = two;
+        for (const nlohmann::json& layer : more) layers.push_back(layer);
+        return layers_scene(layers);
+    };
+    const std::array color = {1.0, 0.5, 0.0}, wall = {0.1, 0.9, 0.3};
+    for (const bool zcull : {false, true})
+        for (const double min_alpha : {0.0, 0.1}) {
+            const auto expect = [&](const nlohmann::json& scene, const std::array<double, 3>& behind,
+                                    const char* what) {
+                const Image image = picture(scene, cap(2, 6, min_alpha, zcull));
+                for (int i = 0; i < 3; ++i)
+                    EXPECT_NEAR(image.pixel(4, 4)[i], 0.75 * color[i] + 0.25 * behind[i], 1e-6)
+                        << what << zcull << min_alpha << i;
+            };
+            expect(with({}), background, "just full");
+            expect(with({full_layer(0.8, wall, 1, true)}), wall, "just full before a wall");
+            expect(with({full_layer(0.5, wall, 1, true), full_layer(0.6, {1, 1, 1}, 0.5)}), wall, "hidden by the wall");
+            if (min_alpha > 0) expect(with({full_layer(0.6, {1, 1, 1}, 0.05)}), background, "too faint");
+            // One layer more, and the guess goes to what the nearest two look like by themselves.
+            const Image guessed = picture(with({full_layer(0.6, {1, 1, 1}, 0.5)}), cap(2, 30, min_alpha, zcull));
+            for (int i = 0; i < 3; ++i) EXPECT_NEAR(guessed.pixel(4, 4)[i], color[i], 1e-6) << zcull << min_alpha;
+        }
+}
+
+TEST_F(StencilCapTest, AHigherCapThanTheStencilCountsIsRefused) {
+    EXPECT_THROW(picture(half_white_layers(1), cap(255, 1)), SpecError);
+    nlohmann::json layers = nlohmann::json::array();
+    for (int i = 0; i < 254; ++i) layers.push_back(full_layer(0.1 + 0.001 * i, {1, 1, 1}, 0.01));
+    const double left = std::pow(0.99, 254);
+    for (const double min_alpha : {0.0, 0.005})
+        EXPECT_NEAR(picture(layers_scene(layers), cap(254, 3, min_alpha)).pixel(3, 3)[0],
+                    1 - left + left * background[0], 1e-5);
 }
 
 /// Two faint layers before two of alpha 0.5, with a cap of two: they use it up, unless the alpha test drops them.
@@ -220,9 +262,10 @@ TEST_F(StencilCapTest, PictureIsThatOfTheLastFrame) {
 TEST_F(StencilCapTest, SaysWhatItTakes) {
     const Spec spec = make_spec(half_white_layers(1), {cap(8, 1), cap(8, 1, 0, true)}, size_px);
     Stage stage(*m_context, spec, PixelFormat::rgba8);
-    // 16 x 16 pixels: accumulation 1024, depth and stencil 2048, two frames of 1024 + 256; 4 x 4 coarse ones of 8.
+    // 16 x 16 pixels: accumulation 1024, depth and stencil 2048, two frames of 1024 + 256; 4 x 4 coarse ones of 8, and
+    // counts of 2.
     EXPECT_EQ(stage.make(spec.methods[0])->memory_bytes(), 1024 + 2048 + 2 * 1280);
-    EXPECT_EQ(stage.make(spec.methods[1])->memory_bytes(), 1024 + 2048 + 2 * 1280 + 128);
+    EXPECT_EQ(stage.make(spec.methods[1])->memory_bytes(), 1024 + 2048 + 2 * 1280 + 128 + 512);
 }
 
 }  // namespace
