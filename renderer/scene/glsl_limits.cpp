@@ -375,10 +375,22 @@ class DivisionGuard {
     int m_depth = 0;
 };
 
+/// Compilers go through an expression by recursion: one of 30,000 terms overflows the stack of Mesa's.
+void check_statements(const std::vector<GlslToken>& tokens) {
+    std::size_t length = 0;
+    for (const GlslToken& token : tokens) {
+        length = token.text == ";" || token.text == "{" || token.text == "}" ? 0 : length + 1;
+        if (length > max_statement_tokens)
+            throw GlslError(token.line, fmt::format("has a statement of more than {} words and signs; divide it",
+                                                    max_statement_tokens));
+    }
+}
+
 }  // namespace
 
 std::string guard_glsl(const std::string& text) {
     const std::vector<GlslToken> tokens = read_glsl_tokens(text);
+    check_statements(tokens);
     const Declarations declarations(tokens);
     return DivisionGuard(text, tokens, declarations).run();
 }

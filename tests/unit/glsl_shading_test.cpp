@@ -84,6 +84,23 @@ const std::vector<Rewriting>& rewritings() {
 INSTANTIATE_TEST_SUITE_P(All, Rewritings, testing::ValuesIn(rewritings()),
                          [](const testing::TestParamInfo<Rewriting>& row) { return row.param.name; });
 
+TEST(GlslShading, StatementsHaveAnEnd) {
+    const auto sum = [](int terms) {
+        std::string body = "float a = tint.r;\nreturn vec4(a";
+        for (int i = 1; i < terms; ++i) body += "+a";
+        return body + ");";
+    };
+    EXPECT_NO_THROW(make_glsl_shading(sum(4000)));
+    EXPECT_THROW(make_glsl_shading(sum(5000)), GlslError);
+    // Divisions within divisions are written twice each time, which must come to an end too.
+    std::string nested = "return tint";
+    for (int i = 0; i < 40; ++i) nested += "/(uv.x";
+    EXPECT_THROW(make_glsl_shading(nested + std::string(40, ')') + ";"), GlslError);
+    std::string deep = "return tint";
+    for (int i = 0; i < 1000; ++i) deep += "/(a";
+    EXPECT_THROW(make_glsl_shading(deep + std::string(1000, ')') + ";"), GlslError);
+}
+
 TEST(GlslShading, KnowsWhatItNeeds) {
     EXPECT_FALSE(make_glsl_shading("return tint; // for sample_texture").has_loops);
     EXPECT_TRUE(make_glsl_shading("do {} while (false); return tint;").has_loops);
