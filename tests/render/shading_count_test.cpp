@@ -168,7 +168,8 @@ const std::vector<Row>& rows() {
          [](const Fragments& f) { return all(f) + until_opaque(f, false); },
          "probed"},
         {cap(0), [](const Fragments& f) { return pass_a_cap_of_four(f, 0); }, {}, "specified"},
-        {cap(0.5), [](const Fragments& f) { return pass_a_cap_of_four(f, 0.5); }, all, "probed"},
+        // The shader itself drops what opaque geometry hides, before it shades.
+        {cap(0.5), [](const Fragments& f) { return pass_a_cap_of_four(f, 0.5); }, not_hidden, "probed"},
         {{{"id", "alpha_test"}}, alpha_test, {}, "probed"},
         {{{"id", "ssam"}, {"alpha_reference", 0.5}},
          [=](const Fragments& f) { return not_hidden(f) + alpha_test(f); },
