@@ -429,6 +429,21 @@ TEST_F(ReportFixture, LinearPicturesDoNotHoldTheTimeOfDay) {
     EXPECT_THAT(encode_exr(Image(2, 1)), HasSubstr("1970:01:01 00:00:00"));
 }
 
+/// 0.25 is 63.75 levels: rounded to 64, a quarter of a level off.
+TEST_F(ReportFixture, TellsWhatTheFormatAloneCosts) {
+    for (std::size_t i = 0; i < runs[0].reference_image.rgba.size(); ++i) runs[0].reference_image.rgba[i] = 0.25f;
+    runs[0].reference_as_shown = runs[0].reference_image;
+    for (float& value : runs[0].reference_as_shown.rgba) value = 64 / 255.0f;
+    runs[0].format_cost = compute_metrics(runs[0].reference_image, runs[0].reference_as_shown);
+    const json made = report();
+    const json& rounded = made["runs"][0]["reference"]["rounded"];
+    EXPECT_EQ(rounded["label"], "exact in rgba8");
+    EXPECT_EQ(rounded["format"], "rgba8");
+    EXPECT_NEAR(rounded["metrics"]["linear"]["max_abs"].get<double>(), 0.25 / 255, 1e-7);
+    EXPECT_EQ(rounded["metrics"]["differing_pixels"], 0);
+    EXPECT_THAT(report_table(made), HasSubstr("exact in rgba8"));
+}
+
 TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
     const std::string table = report_table(report());
     EXPECT_THAT(table, HasSubstr("b2f           35.00"));
