@@ -293,11 +293,14 @@ function rounded_row(rounded, results, context) {
       el("span", { class: "label" }, rounded.label),
       el("span", { class: "caption" }, "what the image format alone costs"),
     ),
-    DIFFERENCE_COLUMNS.map((column) =>
-      column.pixel
+    DIFFERENCE_COLUMNS.map((column) => {
+      const cell = column.pixel
         ? pixel_cell(result, column, context)
-        : number_cell(result, column, decimals_of([...results, result], column), new Set()),
-    ),
+        : number_cell(result, column, decimals_of([...results, result], column), new Set());
+      // It is no method: it takes no part in what the columns compare.
+      delete cell.dataset.path;
+      return cell;
+    }),
   );
 }
 
