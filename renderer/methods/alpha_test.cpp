@@ -67,6 +67,8 @@ MethodInfo method_alpha_test() {
         .bad_at = "Nothing is translucent any more; edges are jagged and sparkle in motion.",
         .memory = "0 bytes per pixel",
         .needs_sorting = false,
+        .sorts_here = [](const Scene&,
+                         const nlohmann::json& parameters) { return parameters.at("order") == "near_to_far"; },
         .parameters = {Param::number("reference", "the least alpha that is drawn; at 0 everything is", "", 0.5, 0, 1),
                        Param::choice("order", "as submitted, or sorted so that near fragments stop far ones",
                                      "submission", {"submission", "near_to_far"})},

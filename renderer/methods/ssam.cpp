@@ -220,6 +220,7 @@ MethodInfo method_ssam() {
         .bad_at = "Glass and smoke: only the nearest colour shows, however faint; halos of the clear colour.",
         .memory = "two pixels of the image format; with opaque_msaa 2 also the samples, colour and depth",
         .needs_sorting = false,
+        .sorts_here = [](const Scene&, const nlohmann::json& parameters) { return parameters.at("drawn_after") > 0; },
         .parameters = {Param::number("mask_lerp", "part of the additive mask; the rest is the maximum", "", 0.85, 0, 1),
                        Param::number("alpha_reference",
                                      "the least alpha that gives colour; the article's range is 64/255 to 128/255", "",
