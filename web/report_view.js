@@ -156,6 +156,7 @@ function header(report) {
     ),
     report.verdict_reason ? el("p", { class: "verdict-reason" }, report.verdict_reason) : null,
     facts([
+      ["Point", runs.length === 1 ? point_text(runs[0].point, spec) : ""],
       ["Scene", scene_text(unswept(spec).scene)],
       ...axes.map((axis) => ["Sweep", `${axis.name}: ${axis.stops.map((stop) => stop.text).join(" · ")}`]),
       ["Image", image.width ? `${image.width} × ${image.height} px, ${image.format}` : ""],

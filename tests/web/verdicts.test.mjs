@@ -1,9 +1,10 @@
 // What a report says beside its numbers: notes, reasons, verdicts, and the files that it drew from.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { png } from "../service/pictures.mjs";
+import { plain_png, png } from "../service/pictures.mjs";
 import { assert_accessible, at, service_tests } from "./harness.mjs";
 
 const tests = service_tests();
@@ -21,6 +22,7 @@ async function finished(spec) {
 }
 
 async function open_report(page, report) {
+  await page.goto("about:blank"); // else the report before is there until the new one has come
   await page.goto(`${tests.url()}/#/reports/${report.id}`);
   await page.locator("article.report").waitFor();
 }
@@ -168,3 +170,33 @@ page_test("equal values of a column are marked alike", {}, async (page) => {
   const { results } = (await api(`/reports/${tests.report_id()}`)).runs[0];
   assert.ok(results.some((result) => at(result, "metrics.flip.mean") > 0));
 });
+
+page_test(
+  "what a comparison finished before its end is shown with how it ended",
+  { origin: undefined },
+  async (page) => {
+    const folder = mkdtempSync(join(tests.folder(), "early-"));
+    writeFileSync(join(folder, "a.png"), plain_png(2, [40, 160, 80]));
+    const spec = {
+      image: { width: 16, height: 16 },
+      scene: { type: "quads", count: 4, shading: "1-texture", texture: { image: "a.png", size: 8 } },
+      methods: ["b2f", "f2b"],
+      timing: { rounds: 1 },
+      sweep: [{ pointer: "/scene/texture/image", values: ["a.png", "missing.png"] }],
+      checks: [{ metric: "flip.mean", method: "f2b", max: 1 }],
+    };
+    writeFileSync(join(folder, "spec.json"), JSON.stringify(spec));
+    const run = spawnSync(process.env.SHEER, ["compare", "spec.json", "--out", "out"], { cwd: folder });
+    assert.equal(run.status, 2, String(run.stderr));
+    const report = JSON.parse(readFileSync(join(folder, "out", "report.json")));
+    assert.deepEqual(report.points, { asked: 2, done: 1 });
+    await page.goto(`file://${join(folder, "out", "report.html")}`);
+    await page.locator("article.report").waitFor();
+    assert.equal(await page.locator(".title-line .verdict").textContent(), "Failed", "its checks passed");
+    assert.ok((await page.getByRole("alert").textContent()).includes(report.error.detail));
+    assert.match(await page.getByRole("region", { name: "Notes" }).textContent(), /Only 1 of 2 points/);
+    assert.match(await page.locator(".report-head").textContent(), /Point.*a\.png/);
+    assert.equal(await page.locator("figure.pane").count(), 3);
+    await assert_accessible(page, "a report that is not whole");
+  },
+);
