@@ -32,6 +32,7 @@ const is_whole = (schema) => [schema.type].flat().includes("integer");
 function fits(schema, value) {
   return (
     (!is_whole(schema) || Number.isInteger(value)) &&
+    (schema.enum === undefined || schema.enum.includes(value)) &&
     !(value < schema.minimum) &&
     !(value > schema.maximum) &&
     !(value <= schema.exclusiveMinimum) &&
@@ -49,7 +50,7 @@ function probes(schema) {
       const step = is_whole(schema) ? 1 / 8 : Math.max(Math.abs(bound), 1) * 1e-9;
       return [bound, bound - step, bound + step, bound - 1, bound + 1];
     });
-  return [...near, 0, 0.5, 1.5, 1e7, -1e7];
+  return [...near, 0, 0.5, 1.5, 2, 3, 4, 1e7, -1e7];
 }
 
 /** Everything of the form that has a range or choices: {pointer, index, count, probes → validity}. */
