@@ -89,7 +89,7 @@ TEST_F(AlphaReference, TexturesOfOneAlphaAreDrawnWhole) {
         Picture picture{Image(8, 8), eight_bit, {}};
         for (std::size_t i = 0; i < picture.image.rgba.size(); ++i)
             picture.image.rgba[i] = i % 4 == 3 ? alpha : i % 4 == 0 ? 1.0f : 0.0f;
-        geometry.texture = picture;
+        geometry.textures = {picture, picture, picture, picture};
         return geometry;
     };
     for (const std::string method : {"alpha_test", "ssam", "stencil_cap", "alpha_to_coverage"})
