@@ -34,7 +34,12 @@ class AlphaReference : public testing::Test {
     /// How many pixels are red; the background has no red.
     int red_pixels(const Geometry& geometry, const json& method, const json& shading = "constant") {
         const Spec spec = parse_spec(
-            {{"scene", {{"type", "foliage"}, {"trees", 1}, {"planes_per_tree", 1}, {"shading", shading}}},
+            {{"scene",
+              {{"type", "foliage"},
+               {"trees", 1},
+               {"planes_per_tree", 1},
+               {"shading", shading},
+               {"texture", {{"image", "leaf"}, {"size", 8}}}}},
              {"methods", json::array({method})},
              {"image", {{"width", size_px}, {"height", size_px}, {"background", {0, 0, 0}}, {"format", "rgba32f"}}}});
         Stage stage(*m_context, spec, PixelFormat::rgba32f, geometry);
@@ -89,7 +94,7 @@ TEST_F(AlphaReference, TexturesOfOneAlphaAreDrawnWhole) {
         Picture picture{Image(8, 8), eight_bit, {}};
         for (std::size_t i = 0; i < picture.image.rgba.size(); ++i)
             picture.image.rgba[i] = i % 4 == 3 ? alpha : i % 4 == 0 ? 1.0f : 0.0f;
-        geometry.textures = {picture, picture, picture, picture};
+        geometry.textures = {{"leaf", picture}};  // in place of the one that the scene asks for
         return geometry;
     };
     for (const std::string method : {"alpha_test", "ssam", "stencil_cap", "alpha_to_coverage"})
