@@ -107,6 +107,8 @@ class Server::Impl {
         });
         m_io.run();
         m_pool.join();
+        // Nobody is left who waits for the specs that no thread has begun.
+        m_spec_pool.stop();
         m_spec_pool.join();
     }
 
