@@ -24,7 +24,7 @@ export function three_squares() {
   };
   const POSITION = floats([-1, 1, 0, 1, 1, 0, 1, -1, 0, -1, -1, 0], "VEC3", 3);
   const TEXCOORD_0 = floats([0, 0, 1, 0, 1, 1, 0, 1], "VEC2", 2);
-  accessors.push({ bufferView: view(Buffer.from(Uint16Array.of(0, 1, 2, 0, 2, 3).buffer)), componentType: UNSIGNED_SHORT,
+  accessors.push({ bufferView: view(Buffer.from(Uint16Array.of(0, 2, 1, 0, 3, 2).buffer)), componentType: UNSIGNED_SHORT,
                    type: "SCALAR", count: 6 });
   const mesh = (material) => ({ primitives: [{ attributes: { POSITION, TEXCOORD_0 }, indices: 2, material }] });
   const node = (number, z) => ({ mesh: number, translation: [0, 0, z], scale: [10 - z, 10 - z, 1] });

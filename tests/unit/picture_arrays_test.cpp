@@ -49,9 +49,9 @@ TEST(PictureArrays, PutPicturesAtTheLevelOfTheirSize) {
 }
 
 TEST(PictureArrays, ScaleTheSmallestOfTooManySizes) {
-    const PictureArrays arranged = arrange_pictures({{3, 3}, {5, 5}, {7, 7}, {11, 11}, {13, 13}, {17, 17}, {7, 7}});
+    const PictureArrays arranged = arrange_pictures({{4, 3}, {5, 4}, {7, 7}, {11, 11}, {13, 13}, {17, 17}, {7, 7}});
     expect_sound(arranged);
-    EXPECT_EQ(arranged.sizes_px, Sizes({{5, 5}, {5, 5}, {7, 7}, {11, 11}, {13, 13}, {17, 17}, {7, 7}}));
+    EXPECT_EQ(arranged.sizes_px, Sizes({{5, 4}, {5, 4}, {7, 7}, {11, 11}, {13, 13}, {17, 17}, {7, 7}}));
 }
 
 TEST(PictureArrays, HalveWhatIsTooLarge) {
