@@ -169,19 +169,35 @@ function several_assets_field(param, path, model) {
     },
   });
   const controls = el("div");
+  const for_all = () => {
+    const { element } = asset_control(param, stored(), (value) => store(model, path, param, value));
+    element.querySelector("select").setAttribute("aria-label", words(param.name));
+    return element;
+  };
   const draw = () =>
     set_children(
       controls,
       box.checked
         ? stored().map((one, index) => {
-            const choose = (value) => store(model, path, param, stored().map((other, at) => (at === index ? value : other)));
+            const choose = (value) =>
+              store(
+                model,
+                path,
+                param,
+                stored().map((other, at) => (at === index ? value : other)),
+              );
             const { element, id: for_id } = asset_control(param, one, choose);
             return [el("label", { for: for_id }, `Number ${index + 1}`), element];
           })
-        : asset_control(param, stored(), (value) => store(model, path, param, value)).element,
+        : for_all(),
     );
   draw();
-  const line = el("div", { class: "ticked" }, box, el("label", { for: id }, `A different one for each of ${param.max_length}`));
+  const line = el(
+    "div",
+    { class: "ticked" },
+    box,
+    el("label", { for: id }, `A different one for each of ${param.max_length}`),
+  );
   return field_frame(param, path, el("div", {}, controls, line), { group: true });
 }
 
