@@ -208,7 +208,8 @@ function checks_list(report) {
             "span",
             { class: "muted" },
             `${bound_text({ ...asked(check), ...check })}; is ` +
-              (is_number(check.value) ? fixed(check.value, 4) : (check.reason ?? "not measured")),
+              (is_number(check.value) ? fixed(check.value, 4) : (check.reason ?? "not measured")) +
+              (is_number(check.value) && check.reason ? `: ${check.reason}` : ""),
           ),
         );
       }),

@@ -65,7 +65,8 @@ Answer post_asset(Service& service, std::atomic<int>& checks, const Request& req
         verdict = service.check_upload(request.body, media_type);
     }
     if (!verdict.refusal.empty())
-        throw Problem(422, fmt::format("The file is not taken as {}: {}.", media_type, verdict.refusal));
+        throw Problem(422, fmt::format("The file is not taken as {}: {}{}", media_type, verdict.refusal,
+                                       verdict.refusal.ends_with('.') ? "" : "."));
     asset.facts = std::move(verdict.facts);
     service.store.add_asset(asset, request.body);
     const auto added = service.store.find_asset(asset.sha256);
