@@ -49,8 +49,8 @@ struct Run {
     MethodSpec reference;
     std::string reference_status = "ok";  ///< ok, unsupported, failed; without a reference nothing has metrics
     std::string reference_reason;         ///< why not ok
-    Image reference_image;     ///< in 32-bit floats
-    Image reference_as_shown;  ///< the same, rounded by the device to the format that the methods blend into
+    Image reference_image;                ///< in 32-bit floats
+    Image reference_as_shown;             ///< the same, rounded by the device to the format that the methods blend into
     /// What that rounding alone costs: of `reference_as_shown` against `reference_image`. Absent for a reference that
     /// has no metrics.
     std::optional<Metrics> format_cost;

@@ -97,7 +97,8 @@ void note_trailing_bytes(PictureHeader& header, std::size_t count) {
 PictureHeader read_picture_header(std::string_view bytes) {
     for (const Signature& signature : picture_signatures)
         if (bytes.starts_with(signature.bytes)) return signature.read(bytes);
-    throw AssetError("the file is no PNG, JPEG or OpenEXR picture, nor a WebP: its first bytes are those of none of them");
+    throw AssetError(
+        "the file is no PNG, JPEG or OpenEXR picture, nor a WebP: its first bytes are those of none of them");
 }
 
 }  // namespace sheer

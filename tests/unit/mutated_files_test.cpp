@@ -9,10 +9,13 @@
 #include "renderer/assets/read_volume.h"
 #include "renderer/scene/random.h"
 #include "tests/unit/asset_pictures.h"
+#include "tests/unit/gzipped.h"
 #include "tests/unit/png_writer.h"
 
 namespace sheer::mutated_files_test {
 namespace {
+
+using test::gzipped;
 
 /// A few changes at random places, most of them of single bytes.
 std::string mutated(std::string bytes, Random& random) {
@@ -61,20 +64,6 @@ void mend_checksums(std::string& png) {
 std::string noise_text(std::size_t count) {
     const std::vector<std::uint8_t> values = noise(count);
     return {values.begin(), values.end()};
-}
-
-std::string gzipped(const std::string& bytes) {
-    std::string packed(bytes.size() + 64, '\0');
-    z_stream stream{};
-    deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
 }
 
 template <typename Value>
