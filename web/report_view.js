@@ -185,6 +185,8 @@ function bound_text(check) {
   return bounds.filter(Boolean).join(" and ");
 }
 
+const CHECK_MARKS = { passed: "✓ passed", failed: "✗ failed", undecided: "? undecided" };
+
 function checks_list(report) {
   const checks = report.checks ?? [];
   if (checks.length === 0) return null;
@@ -199,10 +201,11 @@ function checks_list(report) {
       {},
       checks.map((check) => {
         const point = point_text(check.at, report.spec);
+        const outcome = check.outcome ?? (check.passed ? "passed" : "failed");
         return el(
           "li",
-          { class: check.passed ? "passed" : "failed" },
-          el("span", { class: "check-mark" }, check.passed ? "✓ passed" : "✗ failed"),
+          { class: outcome },
+          el("span", { class: "check-mark" }, CHECK_MARKS[outcome]),
           el("span", {}, `${check.metric} of ${check.method}${point ? ` at ${point}` : ""}`),
           el(
             "span",

@@ -55,7 +55,7 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
 
 int exit_code_of(const nlohmann::json& report) {
     for (const nlohmann::json& check : report["checks"])
-        if (!check["passed"].get<bool>()) return exit_check_failed;
+        if (check["outcome"] == "failed") return exit_check_failed;
     return report["verdict"] == "failed" ? exit_render_failed : exit_ok;
 }
 

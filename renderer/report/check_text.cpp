@@ -9,6 +9,11 @@ namespace sheer {
 
 using nlohmann::json;
 
+std::string check_outcome(const json& check) {
+    // Reports made before checks could stay undecided say only whether they passed.
+    return check.value("outcome", check["passed"].get<bool>() ? "passed" : "failed");
+}
+
 std::string check_limits(const json& check) {
     std::string text;
     if (!check["min"].is_null()) text += " at least " + full_number_text(check["min"]);

@@ -6,6 +6,8 @@ namespace sheer {
 
 // The words for an entry of a report's `checks`, for every table and file that lists them.
 
+/// passed, failed, or undecided.
+std::string check_outcome(const nlohmann::json& check);
 /// " at least 0.9 at most 2", of what limits there are.
 std::string check_limits(const nlohmann::json& check);
 /// "flip.mean of f2bd at most 0.05 at count 16": the same whatever was measured.

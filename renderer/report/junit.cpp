@@ -62,12 +62,16 @@ std::string note_properties(const json& notes) {
 void add_checks(const json& checks, Cases& cases) {
     for (const json& check : checks) {
         const std::string name = check_name(check);
-        if (check["passed"].get<bool>()) {
+        const std::string outcome = check_outcome(check);
+        const json reason = check.value("reason", json());
+        const std::string text = fmt::format("is {}, wanted{}{}", check_value(check), check_limits(check),
+                                             reason.is_string() ? ": " + reason.get<std::string>() : "");
+        if (outcome == "passed") {
             cases.pass(name);
+        } else if (outcome == "undecided") {
+            cases.skip(name, "undecided: " + text);
         } else {
-            const json reason = check.value("reason", json());
-            cases.fail(name, fmt::format("is {}, wanted{}{}", check_value(check), check_limits(check),
-                                         reason.is_string() ? ": " + reason.get<std::string>() : ""));
+            cases.fail(name, text);
         }
     }
 }

@@ -61,8 +61,10 @@ std::string no_measure_reason(const json& result, const std::string& metric) {
 std::optional<Measured> measured_with_interval(const json& result, const std::string& metric) {
     const json value = measured(result, metric);
     if (!value.is_number()) return std::nullopt;
-    if (!is_speedup(metric) && metric != "timing.median") return Measured{value, value, value};
-    const json& interval = result[is_speedup(metric) ? metric : "timing"]["ci95"];
+    const bool is_median = metric.starts_with("timing.") && metric.ends_with(".median");
+    if (!is_speedup(metric) && !is_median) return Measured{value, value, value};
+    const json interval =
+        is_median ? measured(result, metric.substr(0, metric.rfind('.')) + ".ci95") : result[metric]["ci95"];
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (!interval.is_array()) return Measured{value, -infinity, infinity};
     return Measured{value, interval[0], interval[1]};

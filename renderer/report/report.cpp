@@ -7,9 +7,11 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "renderer/frame/magma.h"
+#include "renderer/number_text.h"
 #include "renderer/report/frontier.h"
 #include "renderer/report/measured.h"
 #include "renderer/report/provenance.h"
@@ -242,12 +244,29 @@ class RunWriter {
     json m_overdraw;  ///< the same for every method; null where it was not counted
 };
 
-bool passes(const CheckSpec& check, const json& result, const json& value) {
-    // PSNR is null where the pictures are identical, which passes any minimum.
-    const bool identical = check.metric == "psnr" && value.is_null() && result["metrics"].is_object();
-    if (identical) return check.max.is_null();
-    return value.is_number() && (check.min.is_null() || value >= check.min) &&
-           (check.max.is_null() || value <= check.max);
+/// What a check came to, and why where its value does not say it.
+struct Outcome {
+    std::string word;  ///< passed, failed, undecided
+    json reason;
+};
+
+/// A time passes or fails by its interval: where that holds the limit, nothing is decided. All else is exact.
+Outcome outcome_of(const CheckSpec& check, const json& run, const json& result) {
+    if (run["nothing_drawn"].is_string()) return {"failed", run["nothing_drawn"]};
+    const std::optional<Measured> value = measured_with_interval(result, check.metric);
+    if (!value) {
+        // PSNR is null where the pictures are identical, which passes any minimum.
+        const bool identical = check.metric == "psnr" && result["metrics"].is_object();
+        if (identical && check.max.is_null()) return {"passed", nullptr};
+        return {"failed", no_measure_reason(result, check.metric)};
+    }
+    if ((check.min.is_null() || value->low >= check.min) && (check.max.is_null() || value->high <= check.max))
+        return {"passed", nullptr};
+    if ((!check.min.is_null() && value->high < check.min) || (!check.max.is_null() && value->low > check.max))
+        return {"failed", nullptr};
+    if (std::isinf(value->low)) return {"undecided", "there are too few rounds for an interval"};
+    return {"undecided", fmt::format("the limit lies within its interval [{}, {}]", number_text(value->low),
+                                     number_text(value->high))};
 }
 
 json check_all(const std::vector<CheckSpec>& checks, const json& runs) {
@@ -256,20 +275,16 @@ json check_all(const std::vector<CheckSpec>& checks, const json& runs) {
         for (const json& run : runs) {
             const json* result = find_result(run, check.method);
             if (!result || !lies_at(run["point"], check.at)) continue;
-            const json value = measured(*result, check.metric);
-            const json& empty = run["nothing_drawn"];
-            const bool within = passes(check, *result, value), passed = within && empty.is_null();
-            const json reason = !empty.is_null()              ? empty
-                                : within || value.is_number() ? json()
-                                                              : json(no_measure_reason(*result, check.metric));
+            const Outcome outcome = outcome_of(check, run, *result);
             all.push_back({{"metric", check.metric},
                            {"method", check.method},
                            {"at", run["point"]},
                            {"min", check.min},
                            {"max", check.max},
-                           {"value", value},
-                           {"passed", passed},
-                           {"reason", reason}});
+                           {"value", measured(*result, check.metric)},
+                           {"outcome", outcome.word},
+                           {"passed", outcome.word == "passed"},
+                           {"reason", outcome.reason}});
         }
     }
     return all;
@@ -317,15 +332,22 @@ std::vector<std::string> failures(const json& runs) {
 /// What could not be rendered is a failure whether or not a check asks for it.
 void judge(json& report) {
     const json& checks = report["checks"];
-    const auto failed =
-        std::ranges::count(checks, false, [](const json& check) { return check["passed"].get<bool>(); });
+    const auto count = [&](const std::string& outcome) {
+        return std::ranges::count_if(checks, [&](const json& check) { return check["outcome"] == outcome; });
+    };
+    const auto failed = count("failed"), undecided = count("undecided");
     std::vector<std::string> reasons = failures(report["runs"]);
-    report["verdict"] = failed > 0 || !reasons.empty() ? "failed" : checks.empty() ? "none" : "passed";
+    report["verdict"] = failed > 0 || !reasons.empty() ? "failed"
+                        : undecided > 0                ? "undecided"
+                        : checks.empty()               ? "none"
+                                                       : "passed";
     for (const json& run : report["runs"])
         if (run["nothing_drawn"].is_string()) {
             const std::string at = run["point"].empty() ? "" : "at " + describe_point(run["point"]) + ": ";
             reasons.push_back(at + run["nothing_drawn"].get<std::string>());
         }
+    if (undecided > 0)
+        reasons.insert(reasons.begin(), fmt::format("{} of {} checks are undecided", undecided, checks.size()));
     if (failed > 0) reasons.insert(reasons.begin(), fmt::format("{} of {} checks failed", failed, checks.size()));
     report["verdict_reason"] = reasons.empty() ? json() : json(fmt::format("{}", fmt::join(reasons, "; ")));
 }

@@ -162,7 +162,8 @@ std::string suite_text(const json& suite) {
 
 std::string check_line(const json& check) {
     const std::string point = describe_point(check["at"]);
-    std::string line = fmt::format("{}  {} of {}{} is {}", check["passed"].get<bool>() ? "passed" : "FAILED",
+    const std::string outcome = check_outcome(check);
+    std::string line = fmt::format("{}  {} of {}{} is {}", outcome == "failed" ? "FAILED" : outcome,
                                    check["metric"].get<std::string>(), check["method"].get<std::string>(),
                                    point.empty() ? "" : " at " + point, check_value(check));
     if (!check["min"].is_null()) line += ", at least " + full_number_text(check["min"]);

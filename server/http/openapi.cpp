@@ -122,7 +122,7 @@ json report_schema() {
     properties["spec"] = reference("Spec");
     for (const char* name : {"device", "color_space", "provenance"}) properties[name] = {{"type", "object"}};
     for (const char* name : {"runs", "checks"}) properties[name] = {{"type", "array"}, {"items", {{"type", "object"}}}};
-    properties["verdict"] = {{"enum", {"passed", "failed", "none"}}};
+    properties["verdict"] = {{"enum", {"passed", "failed", "undecided", "none"}}};
     json file = object_schema({{"pointer", text_schema()},
                                {"name", text_schema()},
                                {"of", nullable("string")},

@@ -155,7 +155,7 @@ TEST_F(ReportFixture, SortingIsToldAndSpeedupsAreGivenWithIt) {
     EXPECT_EQ(results[0]["speedup_with_sort"]["value"], 1.0);
     EXPECT_THAT(report_table(report()), HasSubstr("3.75x [3.00, 8.00]"));
 
-    spec.checks = {{"speedup_with_sort", "F2BD <1>", 3.5, nullptr, json::object()},
+    spec.checks = {{"speedup_with_sort", "F2BD <1>", 3.0, nullptr, json::object()},
                    {"timing.sort.median", "b2f", nullptr, 29, json::object()},
                    {"timing.sort.median", "F2BD <1>", nullptr, 29, json::object()}};
     const json checks = report()["checks"];
@@ -276,6 +276,35 @@ TEST_F(ReportFixture, FilesAreTheReportsOnce) {
         {"pointer": "/scene/model", "name": "a.bin", "of": "a.gltf", "sha256": "bb", "bytes": 3},
         {"pointer": "/scene/model", "name": "a.bin", "of": "a.gltf", "sha256": "cc", "bytes": 3}])"));
     EXPECT_EQ(made["runs"][1]["files"], json::array({made["files"][0], made["files"][2]}));
+}
+
+/// Six ratios from 1 to 3, whose interval at one comparison is all of them.
+TEST_F(ReportFixture, AChecksTimeIsDecidedByItsIntervalOnly) {
+    runs[0].results[1].samples[0] = sample(10, 9);
+    runs[0].results[1].samples[5] = sample(20, 18);
+    const auto check = [&](double min, double max) {
+        spec.checks = {{"speedup", "F2BD <1>", min, max, json::object()}};
+        return report();
+    };
+    const json made = check(1.5, 10), undecided = made["checks"][0];
+    EXPECT_EQ(made["runs"][0]["results"][1]["speedup"]["ci95"], json({1.0, 3.0}));
+    EXPECT_EQ(undecided["outcome"], "undecided");
+    EXPECT_EQ(undecided["passed"], false);
+    EXPECT_EQ(undecided["reason"], "the limit lies within its interval [1, 3]");
+    EXPECT_EQ(made["verdict"], "undecided");
+    EXPECT_THAT(report_table(made), HasSubstr("undecided  speedup of F2BD <1> is 2, at least 1.5"));
+    EXPECT_THAT(report_junit(made), HasSubstr("failures=\"0\""));
+    EXPECT_THAT(report_junit(made), HasSubstr("<skipped message=\"undecided: is 2"));
+
+    EXPECT_EQ(check(0.9, 3)["checks"][0]["outcome"], "passed");
+    EXPECT_EQ(check(0.9, 2.9)["checks"][0]["outcome"], "undecided");
+    EXPECT_EQ(check(3.1, 10)["checks"][0]["outcome"], "failed");
+    EXPECT_EQ(check(0.1, 0.9)["verdict"], "failed");
+
+    // Of three rounds there is no interval.
+    for (MethodResult& result : runs[0].results) result.samples.resize(3);
+    runs[0].baseline_again.resize(3);
+    EXPECT_EQ(check(0.9, 3)["checks"][0]["reason"], "there are too few rounds for an interval");
 }
 
 TEST_F(ReportFixture, OutliersAreMarkedAndKept) {
