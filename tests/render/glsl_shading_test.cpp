@@ -213,7 +213,8 @@ TEST(GlslShading, DivisionsAreThoseOfTheLanguage) {
     const auto context = make_context("egl");
     const Spec spec = make_spec(layers(own(body)), {"b2f"}, size_px);
     Stage stage(*context, spec, PixelFormat::rgba8);
-    const float* pixel = stage.picture(spec.methods[0]).pixel(20, 10);
+    const Image picture = stage.picture(spec.methods[0]);
+    const float* pixel = picture.pixel(20, 10);
     EXPECT_EQ(pixel[0], 0);
     EXPECT_EQ(pixel[1], 1);
 }
