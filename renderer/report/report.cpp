@@ -347,7 +347,7 @@ void judge(json& report) {
             reasons.push_back(at + run["nothing_drawn"].get<std::string>());
         }
     if (undecided > 0)
-        reasons.insert(reasons.begin(), fmt::format("{} of {} checks are undecided", undecided, checks.size()));
+        reasons.insert(reasons.begin(), fmt::format("{} of {} checks undecided", undecided, checks.size()));
     if (failed > 0) reasons.insert(reasons.begin(), fmt::format("{} of {} checks failed", failed, checks.size()));
     report["verdict_reason"] = reasons.empty() ? json() : json(fmt::format("{}", fmt::join(reasons, "; ")));
 }
