@@ -1,9 +1,14 @@
-# Writes OUTPUT: the bytes of FILES as arrays, and a table of them by path below ROOT.
+# Writes OUTPUT: the bytes of FILES as arrays, and a table of them by path relative to the one of ROOTS that contains them.
 set(arrays "")
 set(rows "")
 set(number 0)
 foreach(file ${FILES})
-  file(RELATIVE_PATH path ${ROOT} ${file})
+  foreach(root ${ROOTS})
+    string(FIND "${file}" "${root}/" found)
+    if(found EQUAL 0)
+      file(RELATIVE_PATH path ${root} ${file})
+    endif()
+  endforeach()
   file(READ ${file} bytes HEX)
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
   string(APPEND arrays "constexpr unsigned char ${NAME}_${number}[] = {${bytes}0};\n")

@@ -1,4 +1,4 @@
-# sheer_version(TARGET): the generated header version.h with the version and the commit, renewed at every build.
+# sheer_version(TARGET): the generated header version.h with the version and the commit, updated at every build.
 function(sheer_version target)
   set(output ${CMAKE_BINARY_DIR}/generated/version.h)
   add_custom_target(sheer_version_header

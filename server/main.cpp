@@ -4,7 +4,7 @@ int main(int argc, char** argv) {
     sheer::cli::log_to_stderr("sheer");
     CLI::App app{"Sheer compares transparency methods: images, timings and differences of a scene, as a report."};
     app.require_subcommand(1);
-    int exit_code = sheer::cli::exit_ok;
+    int exit_code = sheer::exit_ok;
     sheer::cli::add_compare(app, exit_code);
     sheer::cli::add_diff(app, exit_code);
     sheer::cli::add_pixel(app, exit_code);

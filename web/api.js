@@ -2,19 +2,20 @@
 
 const ROOT = "/api/v1";
 
-/** An answer that is not a success. `errors`: [{pointer, detail}] of a spec that is wrong. */
+/** An unsuccessful answer. `errors`: [{pointer, detail}] of a wrong spec. */
 export class ApiError extends Error {
   constructor(status, problem, retry_after) {
     super(problem.detail || problem.title || `The server answered ${status}`);
     this.status = status;
     this.errors = problem.errors ?? [];
+    this.allow = problem.allow ?? [];
     this.retry_after_s = retry_after;
   }
 }
 
 const MAX_NAME_BYTES = 200;
 
-/** The start of a name, as much as the service takes. */
+/** As much of the beginning of a name as the service accepts. */
 function shortened(name) {
   let short = name;
   while (new TextEncoder().encode(short).length > MAX_NAME_BYTES) short = [...short].slice(0, -1).join("");
@@ -27,7 +28,7 @@ async function call(path, options = {}) {
     response = await fetch(ROOT + path, options);
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new ApiError(0, { detail: "The server cannot be reached." });
+    throw new ApiError(0, { detail: "The server is not reachable." });
   }
   const is_json = (response.headers.get("Content-Type") ?? "").includes("json");
   const body = is_json ? await response.json() : null;
@@ -53,6 +54,13 @@ export async function get_methods() {
 export async function get_scenes() {
   return (await call("/scenes")).body;
 }
+export async function get_columns() {
+  return (await call("/columns")).body;
+}
+/** The rounds that intervals of speedups need, for 1, 2, 3 and more methods. */
+export async function get_rounds_needed() {
+  return (await call("/rounds")).body;
+}
 export async function get_metrics() {
   return (await call("/metrics")).body;
 }
@@ -60,9 +68,15 @@ export async function get_metrics() {
 export async function get_spec_fields() {
   return (await call("/specs/fields")).body;
 }
-/** Ready specs to start from: [{id, spec}]. */
+/** Ready specs to start from: [{id, teaches, spec, files}]. */
 export async function get_examples() {
   return (await call("/specs/examples")).body;
+}
+/** The bytes of a file that a ready spec needs. */
+export async function get_spec_file(url) {
+  const response = await fetch(url);
+  if (!response.ok) throw new ApiError(response.status, { detail: "A file of the ready comparison is missing." });
+  return response.blob();
 }
 
 /** Published measurements that can be repeated. */
@@ -75,7 +89,7 @@ export async function validate(spec, signal) {
   return (await post("/specs/validate", spec, { signal })).body;
 }
 
-/** Queues a comparison; gives its id. */
+/** Queues a comparison; returns its id. */
 export async function submit(spec) {
   const { body, location } = await post("/reports", spec);
   return body?.id ?? location.split("/").pop();
@@ -85,13 +99,18 @@ export async function get_report(id, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}`, { signal })).body;
 }
 
-/** What changed from report `id` to report `against`; of one run with its FLIP maps, or of all without them (null). */
-export async function get_diff(id, against, run, signal) {
-  const query = new URLSearchParams(run === null ? { against } : { against, run });
+/**
+ * What changed from report `id` to report `against`: in one `run`, with its FLIP maps, or in all, without them (null).
+ * `allow`: pointers to fields of the spec that may differ.
+ */
+export async function get_diff(id, against, { run = null, allow = [] }, signal) {
+  const query = new URLSearchParams({ against });
+  if (run !== null) query.set("run", run);
+  if (allow.length > 0) query.set("allow", allow.join());
   return (await call(`/reports/${encodeURIComponent(id)}/diff?${query}`, { signal })).body;
 }
 
-/** A pixel taken apart; `place` is {x, y, run}. */
+/** The fragments of a pixel and what each method made of them; `place` is {x, y, run}. */
 export async function get_pixel(id, place, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}/pixel?${new URLSearchParams(place)}`, { signal })).body;
 }
@@ -100,7 +119,7 @@ export async function delete_report(id) {
   await call(`/reports/${encodeURIComponent(id)}`, { method: "DELETE" });
 }
 
-/** How many uploaded files are listed: as many as the service gives at once. */
+/** How many uploaded files are listed: the most that the service returns at once. */
 export const MOST_ASSETS = 1000;
 
 /** {assets, newest first; accepts: [{media_type, type, suffixes}]; max_bytes}. */
@@ -108,9 +127,12 @@ export async function get_assets() {
   return (await call(`/assets?limit=${MOST_ASSETS}`)).body;
 }
 
-/** Uploads a file for specs to refer to; `on_progress` gets fractions up to 1. Gives what the service says of it. */
+/**
+ * Uploads a file for specs to refer to; `on_progress` gets fractions up to 1. Returns the service's description of
+ * it.
+ */
 export function upload_asset(file, media_type, on_progress) {
-  // fetch cannot say how far a body has got.
+  // fetch does not report the progress of an upload.
   const request = new XMLHttpRequest();
   return new Promise((resolve, reject) => {
     request.upload.addEventListener("progress", ({ loaded, total }) => on_progress(total > 0 ? loaded / total : 1));
@@ -134,23 +156,24 @@ export async function list_reports(query, signal) {
 }
 
 /**
- * Follows a report until it is settled. `on_progress({progress, stage, status})` hears of each step, `on_end()` once.
- * Gives a function that stops listening.
+ * Follows a report until it is final. `on_progress({progress, stage, status})` is called for each step,
+ * `on_connection(connected)` when the connection is lost or back, `on_end()` once. Returns a function that stops listening.
  */
-export function follow(id, on_progress, on_end) {
+export function follow(id, { on_progress, on_connection, on_end }) {
   const source = new EventSource(`${report_path(id)}/events`);
   const close = () => source.close();
-  const hear = (event) => on_progress(JSON.parse(event.data));
-  source.addEventListener("progress", hear);
+  source.addEventListener("open", () => on_connection(true));
+  source.addEventListener("progress", (event) => on_progress(JSON.parse(event.data)));
   for (const end of ["done", "failed", "cancelled"]) {
     source.addEventListener(end, () => {
       close();
       on_end();
     });
   }
-  // The browser reconnects by itself while the source is not closed.
+  // The browser reconnects by itself as long as the source is not closed.
   source.addEventListener("error", () => {
     if (source.readyState === EventSource.CLOSED) on_end();
+    else on_connection(false);
   });
   return close;
 }

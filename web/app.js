@@ -1,51 +1,89 @@
-// The page: which view the address asks for.
+// The page: chooses the view for the address.
+import { split_hash } from "./address.js";
 import { show_archive } from "./archive_view.js";
 import { show_compare } from "./compare_view.js";
 import { show_diff } from "./diff_view.js";
 import { el, set_children } from "./dom.js";
+import { accept_drops } from "./drop.js";
 import { show_report } from "./report_page.js";
+import { show_start } from "./start_view.js";
 
 const ROUTES = [
-  [/^#?\/?$/, show_compare],
+  [/^#?\/?$/, show_start],
+  [/^#\/new$/, show_compare],
   [/^#\/reports\/?$/, show_archive],
-  [/^#\/reports\/([^/?]+)$/, show_report],
-  [/^#\/diff\/([^/?]+)\/([^/?]+)$/, show_diff],
+  [/^#\/reports\/([^/]+)$/, show_report],
+  [/^#\/diff\/([^/]+)\/([^/]+)$/, show_diff],
 ];
 
-const main = document.getElementById("main");
-let leave = null;
+class Page {
+  #main = document.getElementById("main");
+  #leave = null;
+  #path = null;
+  #on_query = null;
 
-function mark_current(hash) {
-  for (const link of document.querySelectorAll("header.site nav a")) {
-    const target = link.getAttribute("href");
-    const of_reports = hash.startsWith("#/reports") || hash.startsWith("#/diff");
-    const current = target === "#/reports" ? of_reports : !of_reports;
-    if (current) link.setAttribute("aria-current", "page");
-    else link.removeAttribute("aria-current");
+  /** `file`: a dropped file for the start page. */
+  show({ moved = false, file = null } = {}) {
+    const { path, query } = split_hash(location.hash);
+    if (path === "#main") return;
+    // A view that is shown already takes over what "back" and "forward" change in its query.
+    if (path === this.#path && !file && this.#on_query) {
+      this.#on_query(query);
+      return;
+    }
+    this.#path = path;
+    this.#leave?.abort();
+    this.#leave = new AbortController();
+    this.#on_query = null;
+    document.documentElement.classList.remove("has-filling");
+    this.#mark_current(path);
+    const [pattern, view] = ROUTES.find(([one]) => one.test(path)) ?? [/.*/, show_nothing];
+    const parts = pattern
+      .exec(path)
+      .slice(1)
+      .map((part) => decodeURIComponent(part));
+    const on_query = (take) => {
+      this.#on_query = take;
+    };
+    view(this.#main, this.#leave.signal, { parts, query, on_query, file });
+    if (!moved) return;
+    window.scrollTo(0, 0);
+    this.#main.focus({ preventScroll: true });
+  }
+
+  #mark_current(path) {
+    for (const link of document.querySelectorAll("header.site nav a")) {
+      const of_reports = path.startsWith("#/reports") || path.startsWith("#/diff");
+      const here = of_reports ? "#/reports" : path === "#/new" ? "#/new" : "#/";
+      if (link.getAttribute("href") === here) link.setAttribute("aria-current", "page");
+      else link.removeAttribute("aria-current");
+    }
   }
 }
 
-function route(moved) {
-  const hash = location.hash;
-  if (hash === "#main") return;
-  leave?.abort();
-  leave = new AbortController();
-  mark_current(hash);
-  const found = ROUTES.find(([pattern]) => pattern.test(hash));
-  if (!found) {
-    set_children(
-      main,
-      el("h1", {}, "Not here"),
-      el("p", {}, "There is no such page. ", el("a", { href: "#/" }, "New comparison")),
-    );
-    return;
-  }
-  const [pattern, show] = found;
-  show(main, leave.signal, ...pattern.exec(hash).slice(1).map(decodeURIComponent));
-  if (!moved) return;
-  window.scrollTo(0, 0);
-  main.focus({ preventScroll: true });
+function show_nothing(main) {
+  document.title = "Sheer";
+  set_children(
+    main,
+    el(
+      "section",
+      { class: "plain-page" },
+      el("h1", {}, "Not found"),
+      el("p", {}, "There is no such page."),
+      el(
+        "div",
+        { class: "actions" },
+        el("a", { class: "button", href: "#/" }, "Start"),
+        el("a", { class: "button", href: "#/reports" }, "All reports"),
+      ),
+    ),
+  );
 }
 
-window.addEventListener("hashchange", () => route(true));
-route(false);
+const page = new Page();
+window.addEventListener("hashchange", () => page.show({ moved: true }));
+accept_drops((file) => {
+  if (split_hash(location.hash).path !== "#/") history.pushState(null, "", "#/");
+  page.show({ moved: true, file });
+});
+page.show();

@@ -1,5 +1,4 @@
-// The control of a field that refers to a file: names that are built in, files that were uploaded, and a button to
-// upload another.
+// The control of a field that refers to a file: built-in names, uploaded files, and a button to upload another one.
 import { get_assets, MOST_ASSETS, upload_asset } from "./api.js";
 import { el, select, set_children, unique_id } from "./dom.js";
 import { note_list } from "./notes.js";
@@ -13,15 +12,15 @@ function caption_of(asset) {
 
 const RAW = "application/octet-stream";
 
-/** The media type to send a file as: by the end of its name, else what the browser says, else plain bytes. */
-function media_type_of(file, kinds) {
+/** The media type of a file: by the suffix of its name, otherwise as the browser says, otherwise plain bytes. */
+export function media_type_of(file, kinds) {
   const name = file.name.toLowerCase();
   const kind =
     kinds.find(({ suffixes }) => suffixes.some((suffix) => name.endsWith(suffix))) ??
     kinds.find(({ media_type }) => media_type === file.type) ??
     kinds.find(({ media_type }) => media_type === RAW);
   if (kind) return kind.media_type;
-  if (kinds.length === 0) throw new Error("The service has not said which files it takes; load the page again.");
+  if (kinds.length === 0) throw new Error("It is not known which files the service accepts; reload the page.");
   throw new Error(`The name must end with ${kinds.flatMap(({ suffixes }) => suffixes).join(", ")}.`);
 }
 
@@ -77,16 +76,16 @@ class AssetControl {
       uploaded.length > 0 ? { label: "Uploaded", choices: uploaded } : null,
     ].filter(Boolean);
     this.#select.replaceChildren(...select({}, choices).childNodes);
-    this.#select.value = this.#current; // a moved option does not keep what it was
+    this.#select.value = this.#current; // moving an option loses the selection
     this.#draw_notes();
   }
 
-  /** What of the chosen file is not read, or read otherwise. */
+  /** Shows what is not read from the chosen file, or read differently. */
   #draw_notes() {
     const { notes = [], media_type } = this.#uploaded.find(({ sha256 }) => sha256 === this.#current) ?? {};
     set_children(
       this.#notes,
-      media_type === RAW ? el("p", { class: "hint" }, "It has no header: say below what it holds.") : null,
+      media_type === RAW ? el("p", { class: "hint" }, "It has no header: describe its contents below.") : null,
       note_list(notes),
     );
   }
@@ -109,7 +108,7 @@ class AssetControl {
     if (!file) return;
     this.#button.disabled = true;
     try {
-      await this.#loaded; // what is accepted is known then
+      await this.#loaded; // by then it is known what is accepted
       if (file.size > this.#max_bytes) throw new Error(`The file is over the limit of ${this.#max_bytes} bytes.`);
       const asset = await upload_asset(file, media_type_of(file, this.#kinds), (part) =>
         this.#say(part < 1 ? `Uploading ${file.name}: ${Math.round(100 * part)} %` : `Reading ${file.name}`),

@@ -1,5 +1,5 @@
-// Charts in SVG: lines of methods over a sweep, and points of methods in a plane. A chart is drawn anew at the width
-// that it has; the mouse and the arrow keys show the values at a place.
+// Charts in SVG: lines of methods over a sweep, and points of methods in a plane. A chart is redrawn when its width
+// changes; the mouse and the arrow keys show the values at a place.
 import { el, set_children, svg } from "./dom.js";
 import { is_number } from "./format.js";
 import { make_scale, scale_kind, thinned, tick_text, value_axis } from "./scales.js";
@@ -8,12 +8,12 @@ const HEIGHT = 236;
 const TOP = 10;
 const RIGHT = 16;
 const BOTTOM = 38;
-const LETTER = 6.4; // width of a letter of a tick, about
+const LETTER = 6.4; // approximate width of a letter of a tick
 const NAME_ROW = 12; // height of a name
-const GAP = 12; // between a target and what is said of it
-const FLAT = 0.25; // of the greatest value: a smaller spread is shown without 0
+const GAP = 12; // between a target and its readout
+const FLAT = 0.25; // share of the greatest value: if the spread is smaller, the axis does not include 0
 const DODGE = 7; // between methods at one category
-const COLOURS = 8;
+const COLORS = 8;
 const SHAPES = [
   "M-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0-7.2 0z",
   "M-3.3-3.3h6.6v6.6h-6.6z",
@@ -22,17 +22,17 @@ const SHAPES = [
   "M0 4.4L4.2-3H-4.2z",
 ];
 
-const colour_class = (index) => `series-${index % COLOURS}`;
+const color_class = (index) => `series-${index % COLORS}`;
 
 function marker(index, x, y, name = "") {
   return svg("path", {
-    class: `marker ${name || colour_class(index)}`,
+    class: `marker ${name || color_class(index)}`,
     d: SHAPES[index % SHAPES.length],
     transform: `translate(${x} ${y})`,
   });
 }
 
-/** Names of the lines with their colours and shapes; `labels` in the order of the series. */
+/** Names of the lines with their colors and shapes; `labels` in the order of the series. */
 export function legend(labels) {
   return el(
     "ul",
@@ -46,8 +46,8 @@ function key_mark(index) {
 }
 
 /**
- * A chart that draws itself. `paint(width)` gives {nodes, targets}: what is drawn, and the places that have values,
- * {x, y, lines, key}, with `y` missing where only x counts. `on_choose(key)` hears of a click or Enter.
+ * A chart that draws itself. `paint(width)` returns {nodes, targets}: what is drawn, and the places that have values,
+ * {x, y, lines, key}, without `y` if only x counts. `on_choose(key)` is called on a click or Enter.
  */
 class Plot {
   #targets = [];
@@ -121,13 +121,13 @@ class Plot {
     this.#guide.setAttribute("x1", target.x);
     this.#guide.setAttribute("x2", target.x);
     set_children(this.#readout, target.lines);
-    this.#readout.style.left = "0"; // where nothing narrows it
+    this.#readout.style.left = "0"; // where its width is not restricted
     const [left, top] = this.#free_place(target);
     this.#readout.style.left = `${left}px`;
     this.#readout.style.top = `${top}px`;
   }
 
-  /** Where the readout goes, beside its target: within the chart, over as few other targets as can be. */
+  /** The place of the readout beside its target: within the chart, covering as few other targets as possible. */
   #free_place({ x, y }) {
     const { offsetWidth: width, offsetHeight: height, parentElement: box } = this.#readout;
     const within = (place, size, all) => Math.max(0, Math.min(place, all - size));
@@ -152,7 +152,7 @@ function y_axis_nodes(ticks, y, left, right) {
   ]);
 }
 
-/** `stops`: [{at, text}] in rising order of `at`; names that have no room are left out. */
+/** `stops`: [{at, text}] in ascending order of `at`; names without room are left out. */
 function x_axis_nodes(stops, name, left, right) {
   const base = HEIGHT - BOTTOM;
   const longest = Math.max(...stops.map(({ text }) => text.length));
@@ -183,7 +183,7 @@ function whisker(x, [low, high], y, name) {
   return svg("path", { class: `whisker ${name}`, d });
 }
 
-/** Places of stops on the x axis: numbers where they lie, anything else evenly apart. */
+/** Places of stops on the x axis: numbers to scale, anything else evenly spaced. */
 function stop_places(stops, left, right) {
   const values = stops.map((stop) => stop.value);
   const kind = scale_kind(values);
@@ -195,7 +195,7 @@ function stop_places(stops, left, right) {
   return values.map(scale);
 }
 
-/** The parts of a line between points that are missing. */
+/** The path of a line, with gaps at missing points. */
 function line_path(places) {
   let pen = "M";
   return places
@@ -211,7 +211,7 @@ function line_path(places) {
     .join("");
 }
 
-/** Kind and axis for all values and ends of intervals; a linear one has 0 unless that would hide the differences. */
+/** Kind and axis for all values and ends of intervals; a linear axis has 0 unless that would hide the differences. */
 function line_values_axis(series, mark) {
   const points = series.flatMap((one) => one.points).filter((point) => is_number(point.value));
   const values = points.flatMap((point) => [point.value, ...(point.interval ?? [])]);
@@ -223,9 +223,9 @@ function line_values_axis(series, mark) {
 }
 
 /**
- * One line a method. `heading`: a node in place of the title; `x`: {name, stops: [{value, text}]}; `series`: [{label, points: [{stop, value, interval}]}] with
- * stops as indices of `x.stops`; `mark`: a value to draw a line at; `shown(value, interval)` gives text;
- * `chosen`: the stop to point out; `on_choose(stop)`.
+ * One line per method. `heading`: a node instead of the title; `x`: {name, stops: [{value, text}]}; `series`: [{label,
+ * points: [{stop, value, interval}]}] with stops as indices of `x.stops`; `mark`: a value at which to draw a line;
+ * `shown(value, interval)` returns text; `chosen`: the stop to highlight; `on_choose(stop)`.
  */
 export function line_chart({ title, heading = title, unit, x, series, mark, shown, chosen, on_choose }) {
   const axis = line_values_axis(series, mark);
@@ -242,8 +242,8 @@ export function line_chart({ title, heading = title, unit, x, series, mark, show
       const found = order.map((stop) => point_at(one, stop));
       const at = found.map((point) => point && [places[point.stop] + dodge(index), y(point.value)]);
       return [
-        svg("path", { class: `line ${is_numeric ? "" : "loose "}${colour_class(index)}`, d: line_path(at) }),
-        found.map((point, k) => point?.interval && whisker(at[k][0], point.interval, y, colour_class(index))),
+        svg("path", { class: `line ${is_numeric ? "" : "loose "}${color_class(index)}`, d: line_path(at) }),
+        found.map((point, k) => point?.interval && whisker(at[k][0], point.interval, y, color_class(index))),
         found.map((point, k) => point && marker(index, ...at[k])),
       ];
     });
@@ -275,7 +275,7 @@ export function line_chart({ title, heading = title, unit, x, series, mark, show
   return new Plot({ heading, unit, label, paint, on_choose }).element;
 }
 
-/** Names of points above them: to the right, or to the left where there is no room, pushed up over each other. */
+/** Names above points: to the right, or to the left if there is no room, moved up so that they do not overlap. */
 function name_nodes(points, right) {
   const rows = [];
   return [...points]
@@ -290,7 +290,7 @@ function name_nodes(points, right) {
       return svg(
         "text",
         {
-          class: point.grey ? "name grey" : point.fastest ? "name fastest" : "name",
+          class: ["name", point.grey && "grey", point.fastest && "fastest"].filter(Boolean).join(" "),
           x: on_left ? point.x - 4 : point.x + 4,
           y,
           dy: "0.32em",
@@ -302,9 +302,9 @@ function name_nodes(points, right) {
 }
 
 /**
- * Methods in a plane. `points`: [{label, index, x, y, x_interval, grey, fastest, lines}]: `index` gives colour and shape,
- * `x` over 0 on a logarithmic axis, `y` not below 0; grey ones are drawn back, names of `fastest` ones are bold; a line of
- * steps joins those that are not grey. `lines` are shown for the point.
+ * Methods in a plane. `points`: [{label, index, x, y, x_interval, grey, fastest, lines}]: `index` gives color and
+ * shape, `x` over 0 on a logarithmic axis, `y` not below 0; grey ones are in the background, names of `fastest` ones
+ * are bold; a stepped line joins those that are not grey. `lines` are shown for the point.
  */
 export function scatter_chart({ title, unit, x_name, label, points }) {
   const x_axis = value_axis(
@@ -324,7 +324,7 @@ export function scatter_chart({ title, unit, x_name, label, points }) {
       if (!point.x_interval) return null;
       const [low, high] = point.x_interval.map(x);
       const d = `M${low} ${point.y}H${high}M${low} ${point.y - 3}v6M${high} ${point.y - 3}v6`;
-      return svg("path", { class: `whisker ${point.grey ? "grey" : colour_class(point.index)}`, d });
+      return svg("path", { class: `whisker ${point.grey ? "grey" : color_class(point.index)}`, d });
     });
     return {
       nodes: [

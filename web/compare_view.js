@@ -1,11 +1,20 @@
-// A new comparison at #/: a form and the same spec as JSON, checked by the service while it is written.
-import { get_examples, get_methods, get_scenes, get_spec_fields, get_suites, submit, validate } from "./api.js";
+// A new comparison at #/: a form and the same spec as JSON, checked by the service while it is edited.
+import {
+  get_examples,
+  get_methods,
+  get_rounds_needed,
+  get_scenes,
+  get_spec_fields,
+  get_suites,
+  submit,
+  validate,
+} from "./api.js";
 import { el, set_children, unique_id } from "./dom.js";
 import { clear_errors, focus_first_error, show_errors } from "./field_errors.js";
 import { json_range } from "./json_position.js";
-import { presets_of } from "./presets.js";
+import { prepared_spec, presets_of } from "./presets.js";
 import { SpecForm } from "./spec_form.js";
-import { first_model, keep_draft } from "./spec_model.js";
+import { draft_is_edited, first_model, keep_draft, may_replace_draft } from "./spec_model.js";
 import { suite_chooser } from "./suite_chooser.js";
 
 const TYPING_PAUSE_MS = 300;
@@ -16,6 +25,7 @@ class CompareView {
   #signal;
   #request = null;
   #typing = null;
+  #is_edited = draft_is_edited();
   #text_error = null;
   #state = el("p", { class: "spec-state", role: "status" });
   #text = el("textarea", {
@@ -28,13 +38,14 @@ class CompareView {
   #loose_errors = el("ul", { class: "json-errors" });
   #run = el("button", { type: "button", class: "primary", onclick: () => this.#submit() }, "Run comparison");
 
-  constructor({ fields, methods, scenes, suites, examples }, signal) {
+  constructor({ fields, methods, scenes, suites, examples, rounds_needed }, signal) {
     const presets = presets_of(examples);
     this.#signal = signal;
     const ready = [...presets, ...suites].map(({ spec }) => spec);
     this.#model = first_model(ready, { scene: { type: scenes[0]?.id }, methods: [] });
-    this.#form = new SpecForm(this.#model, { fields, methods, scenes });
+    this.#form = new SpecForm(this.#model, { fields, methods, scenes, rounds_needed });
     this.#model.addEventListener("edit", () => {
+      this.#is_edited = true;
       this.#write_text();
       this.#changed();
     });
@@ -44,6 +55,10 @@ class CompareView {
     });
     this.#text.addEventListener("input", () => this.#read_text());
     signal.addEventListener("abort", () => clearTimeout(this.#typing));
+    const leaving = (event) => {
+      if (this.#is_edited) event.preventDefault();
+    };
+    window.addEventListener("beforeunload", leaving, { signal });
     this.element = el(
       "div",
       { class: "compare" },
@@ -58,8 +73,18 @@ class CompareView {
   }
 
   #start_from(spec) {
+    if (!may_replace_draft()) return;
+    this.#is_edited = false;
     this.#model.start_from(spec);
     this.#write_text();
+  }
+
+  async #start_from_preset(preset) {
+    try {
+      this.#start_from(await prepared_spec(preset));
+    } catch (error) {
+      this.#show_problem(error);
+    }
   }
 
   #preset_row(presets) {
@@ -72,7 +97,7 @@ class CompareView {
           {
             type: "button",
             class: "preset",
-            onclick: () => this.#start_from(preset.spec),
+            onclick: () => this.#start_from_preset(preset),
           },
           el("strong", {}, preset.name),
           el("span", {}, preset.summary),
@@ -155,6 +180,7 @@ class CompareView {
   }
 
   #read_text() {
+    this.#is_edited = true;
     try {
       const spec = JSON.parse(this.#text.value);
       this.#text_error = null;
@@ -168,7 +194,7 @@ class CompareView {
   }
 
   #changed() {
-    keep_draft(this.#model.spec, this.#model.origin);
+    keep_draft(this.#model.spec, this.#model.origin, this.#is_edited);
     clearTimeout(this.#typing);
     this.#typing = setTimeout(() => this.#validate(), TYPING_PAUSE_MS);
   }
@@ -241,6 +267,8 @@ class CompareView {
     this.#state.textContent = "Sending…";
     try {
       const id = await submit(this.#model.spec);
+      this.#is_edited = false;
+      keep_draft(this.#model.spec, this.#model.origin);
       if (!this.#signal.aborted) location.hash = `#/reports/${encodeURIComponent(id)}`;
     } catch (error) {
       this.#show_problem(error);
@@ -257,17 +285,18 @@ export async function show_compare(main, signal) {
   document.title = "New comparison – Sheer";
   set_children(main, el("p", { class: "muted" }, "Loading…"));
   try {
-    // Without what one can start from there is the form all the same.
+    // The form also works without specs to start from.
     const none = () => [];
-    const [fields, methods, scenes, suites, examples] = await Promise.all([
+    const [fields, methods, scenes, rounds_needed, suites, examples] = await Promise.all([
       get_spec_fields(),
       get_methods(),
       get_scenes(),
+      get_rounds_needed(),
       get_suites().catch(none),
       get_examples().catch(none),
     ]);
     if (!signal.aborted)
-      set_children(main, new CompareView({ fields, methods, scenes, suites, examples }, signal).element);
+      set_children(main, new CompareView({ fields, methods, scenes, rounds_needed, suites, examples }, signal).element);
   } catch (error) {
     if (!signal.aborted)
       set_children(

@@ -1,11 +1,13 @@
-// Two reports held against each other at #/diff/{a}/{b}: what changed from the first to the second.
+// The comparison of two reports at #/diff/{a}/{b}: what changed from the first to the second.
+// With ?allow=POINTER,... they are compared even if their specs differ there.
 import { get_diff } from "./api.js";
 import { el, select, set_children } from "./dom.js";
 import { column_decimals, DASH, fixed, integer, is_number, short_value, when } from "./format.js";
 import { ImageViewer } from "./image_viewer.js";
+import { PictureData } from "./picture_data.js";
 import { point_text } from "./sweep.js";
 
-const FLIP_NOTE = "FLIP between the two pictures: black where nobody sees a difference, pale yellow for the greatest.";
+const FLIP_NOTE = "FLIP between the two pictures: black where no difference is visible, pale yellow for the greatest.";
 const HEADS = [
   ["Picture", ""],
   ["FLIP mean", "number"],
@@ -44,7 +46,7 @@ function ratio_cell(judged, reason) {
   );
 }
 
-/** The first cell of a row: its name, by which its pictures are chosen. */
+/** The first cell of a row: its name, which is a button that shows its pictures. */
 function heading(row, on_show) {
   const name = row.picture
     ? el(
@@ -166,14 +168,29 @@ function run_table(rows, on_show) {
 
 function viewer_of(row, image) {
   const { a, b, flip_picture } = row.picture;
-  const kinds = [{ key: "color", label: "Colour" }];
+  const kinds = [
+    { key: "color", label: "Color" },
+    { key: "difference", label: "Difference", note: "A minus B in 8-bit levels." },
+  ];
   if (flip_picture) kinds.push({ key: "flip", label: "FLIP", note: FLIP_NOTE });
   return new ImageViewer({
     width_px: image.width,
     height_px: image.height,
     sources: [
-      { key: "a", label: "A, before", name: "A", reference: true, title: row.label, pictures: { color: a.url } },
-      { key: "b", label: "B, after", title: row.label, pictures: { color: b.url, flip: flip_picture?.url } },
+      {
+        key: "0",
+        label: "A, before",
+        name: "A",
+        reference: true,
+        title: row.label,
+        data: new PictureData({ color: { url: a.url } }),
+      },
+      {
+        key: "1",
+        label: "B, after",
+        title: row.label,
+        data: new PictureData({ color: { url: b.url }, ...(flip_picture ? { flip: { url: flip_picture.url } } : {}) }),
+      },
     ],
     kinds,
   });
@@ -261,8 +278,14 @@ function value_text(value) {
 
 function differences_part({ differences }) {
   if (differences.length === 0) return el("p", { class: "muted" }, "Spec, device and provenance are the same.");
-  const row = ({ pointer, a, b }) =>
-    el("tr", {}, el("th", { scope: "row" }, pointer), el("td", {}, value_text(a)), el("td", {}, value_text(b)));
+  const row = ({ pointer, a, b, allowed }) =>
+    el(
+      "tr",
+      {},
+      el("th", { scope: "row" }, pointer, allowed ? el("span", { class: "muted" }, " (allowed)") : null),
+      el("td", {}, value_text(a)),
+      el("td", {}, value_text(b)),
+    );
   return el(
     "div",
     { class: "table-box", tabindex: "0", role: "region", "aria-label": "Differences of spec, device and provenance" },
@@ -284,6 +307,17 @@ function differences_part({ differences }) {
   );
 }
 
+/** Warns that pictures were expected to change. */
+function allowed_note({ differences }) {
+  const pointers = differences.filter((one) => one.allowed).map((one) => one.pointer);
+  if (pointers.length === 0) return null;
+  return el(
+    "p",
+    { class: "notice", role: "note" },
+    `The two specs describe different pictures, which is allowed here: they differ in ${pointers.join(", ")}.`,
+  );
+}
+
 function only_in_list(only_in) {
   const texts = ["a", "b"].flatMap((side) => [
     ...only_in[side].methods.map((label) => `Only in ${side.toUpperCase()}: the method ${label}`),
@@ -298,7 +332,12 @@ function only_in_list(only_in) {
     : null;
 }
 
-function failure(main, error) {
+function diff_address(a, b, allow) {
+  const query = allow.length > 0 ? `?allow=${encodeURIComponent(allow.join())}` : "";
+  return `#/diff/${encodeURIComponent(a)}/${encodeURIComponent(b)}${query}`;
+}
+
+function failure(main, error, all_the_same) {
   document.title = "Sheer";
   set_children(
     main,
@@ -309,18 +348,22 @@ function failure(main, error) {
       { class: "diff-errors" },
       (error.errors ?? []).map(({ pointer, detail }) => el("li", {}, el("code", {}, pointer), ` ${detail}`)),
     ),
+    all_the_same ? el("p", {}, el("a", { class: "button", href: all_the_same }, "Compare anyway")) : null,
     el("p", {}, el("a", { href: "#/reports" }, "All reports")),
   );
 }
 
-export async function show_diff(main, signal, a, b) {
+/** `allowed` is a comma-separated list of pointers from the address. */
+export async function show_diff(main, signal, { parts: [a, b], query }) {
+  const allow = query.allow ? query.allow.split(",") : [];
   document.title = "What changed – Sheer";
   set_children(main, el("p", { class: "notice", role: "status" }, "Comparing the reports…"));
   let diff;
   try {
-    diff = await get_diff(a, b, null, signal);
+    diff = await get_diff(a, b, { allow }, signal);
   } catch (error) {
-    if (!signal.aborted) failure(main, error);
+    if (signal.aborted) return;
+    failure(main, error, error.allow?.length > 0 ? diff_address(a, b, [...allow, ...error.allow]) : null);
     return;
   }
   const place = el("div", { class: "run" });
@@ -330,7 +373,7 @@ export async function show_diff(main, signal, a, b) {
     const mine = ++asked;
     note.textContent = "Comparing the pictures…";
     try {
-      const { runs } = await get_diff(a, b, index, signal);
+      const { runs } = await get_diff(a, b, { run: index, allow }, signal);
       if (signal.aborted || mine !== asked) return;
       note.textContent = "";
       show_run(place, runs[0], diff.a.baseline);
@@ -340,8 +383,8 @@ export async function show_diff(main, signal, a, b) {
   };
   const points = diff.runs.map((run, index) => [String(index), point_text(run.point)]);
   const judged = diff.same_device
-    ? "On one device B is faster or slower only where its time and its ratio to the baseline's both say so: two reports are two moments of a machine."
-    : "The reports are of two devices: B is faster or slower by its time alone.";
+    ? "On one device, B is faster or slower only if its time and its ratio to the baseline agree, because the machine may have been busier during one of the reports."
+    : "The reports are from two devices: B is faster or slower by its time alone.";
   set_children(
     main,
     el(
@@ -353,10 +396,11 @@ export async function show_diff(main, signal, a, b) {
         { class: "diff-sides" },
         side_facts("A, before", diff.a),
         side_facts("B, after", diff.b),
-        el("a", { class: "button", href: `#/diff/${encodeURIComponent(b)}/${encodeURIComponent(a)}` }, "Swap A and B"),
+        el("a", { class: "button", href: diff_address(b, a, allow) }, "Swap A and B"),
       ),
       summary_list(diff.summary),
       el("p", { class: "notice", role: "note" }, judged),
+      allowed_note(diff),
       differences_part(diff),
       only_in_list(diff.only_in),
       points.length > 1

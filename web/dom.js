@@ -1,4 +1,4 @@
-// Building DOM without markup strings: text from users only ever becomes text nodes and attribute values.
+// Builds DOM without markup strings: text from users becomes only text nodes and attribute values.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -44,7 +44,7 @@ export function unique_id(stem = "id") {
   return `${stem}-${++last_id}`;
 }
 
-/** A row of buttons of which one is pressed; `choices` are [value, label, title?]. */
+/** A row of buttons, one of which is pressed; `choices` are [value, label, title?]. */
 export function segmented(label, choices, current, on_choose) {
   const buttons = choices.map(([value, text, title]) =>
     el(

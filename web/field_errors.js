@@ -1,6 +1,6 @@
-// Errors of a spec, put beside the fields that they are about.
+// Shows errors of a spec next to the fields that they concern.
 
-/** The element of the form for a JSON pointer: its own field, else the nearest part that holds it. */
+/** The element of the form for a JSON pointer: its own field, otherwise the nearest enclosing part. */
 function place_of(form, pointer) {
   const places = new Map([...form.querySelectorAll("[data-pointer]")].map((node) => [node.dataset.pointer, node]));
   for (let end = pointer.length; end > 0; end = pointer.lastIndexOf("/", end - 1)) {
@@ -20,7 +20,7 @@ export function clear_errors(form) {
   for (const input of form.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
 }
 
-/** Shows `errors` [{pointer, detail}] in the form; gives those that belong to no field. */
+/** Shows `errors` [{pointer, detail}] in the form; returns those that belong to no field. */
 export function show_errors(form, errors) {
   clear_errors(form);
   return errors.filter(({ pointer, detail }) => {

@@ -8,7 +8,7 @@ export function is_number(value) {
   return typeof value === "number" && Number.isFinite(value);
 }
 
-/** Decimals that give the smallest value that is not 0 `digits` significant digits, so that a column lines up. */
+/** Decimals with which the smallest non-zero value has `digits` significant digits, so that a column lines up. */
 export function column_decimals(values, digits = 3) {
   if (values.filter(is_number).every(Number.isInteger)) return 0;
   const sizes = values
@@ -47,7 +47,7 @@ export function when(text) {
   );
 }
 
-/** "3 minutes ago", or the date where that is over a day. */
+/** "3 min ago", or the date if it is more than a day ago. */
 export function ago(text, now = Date.now()) {
   const seconds = (now - new Date(text).getTime()) / 1000;
   if (!Number.isFinite(seconds)) return DASH;
@@ -60,7 +60,7 @@ export function ago(text, now = Date.now()) {
 const SHA256 = /^[0-9a-f]{64}$/;
 const SHOWN_DIGITS = 12;
 
-/** `value` in one line: 0.02, leaf, [0, 0, 0], {…}; of a file's SHA-256 the first digits. */
+/** `value` in one line: 0.02, leaf, [0, 0, 0], {…}; for the SHA-256 of a file, its first digits. */
 export function short_value(value) {
   if (Array.isArray(value))
     return value.length > 4 ? `${value.length} items` : `[${value.map(short_value).join(", ")}]`;
@@ -76,7 +76,7 @@ export function short_value(value) {
 
 const ABBREVIATIONS = new Set(["glsl"]);
 
-/** snake_case to words with a capital. */
+/** snake_case to words with an initial capital. */
 export function words(name) {
   if (ABBREVIATIONS.has(name)) return name.toUpperCase();
   const text = name.replaceAll("_", " ");

@@ -1,6 +1,6 @@
-// Speed against error of a run's methods: which of them are worth their time, as a chart and in words.
+// Speed versus error of a run's methods: which of them are worth their time, as a chart and in words.
 import { scatter_chart } from "./chart.js";
-import { fastest_labels, value_at } from "./columns.js";
+import { difference_columns, fastest_labels, value_at } from "./columns.js";
 import { el } from "./dom.js";
 import { column_decimals, fixed, is_number } from "./format.js";
 
@@ -8,17 +8,19 @@ import { column_decimals, fixed, is_number } from "./format.js";
 function dominated_lines(dominated) {
   const methods_of = new Map();
   for (const { method, by, reason } of dominated) {
-    const why = reason ?? `${by} is at least as fast and at least as near to the reference`;
+    const why = reason ?? `${by} is at least as fast and at least as close to the reference`;
     methods_of.set(why, [...(methods_of.get(why) ?? []), method]);
   }
   return [...methods_of].map(([why, methods]) => el("p", { class: "muted" }, `Grey: ${methods.join(", ")}. ${why}.`));
 }
 
-/** Null where the report has no frontier. */
-export function frontier_section(run) {
+/** Null if the report has no frontier. */
+export function frontier_section(run, metrics) {
   const { frontier } = run;
   if (!frontier) return null;
-  const error_path = `metrics.${frontier.error ?? "flip.mean"}`;
+  const error_name = frontier.error ?? "flip.mean"; // older reports do not name it
+  const error_path = `metrics.${error_name}`;
+  const error_head = difference_columns(metrics).find(({ name }) => name === error_name)?.head ?? error_name;
   const by = new Map(frontier.dominated.map((entry) => [entry.method, entry.by]));
   const fastest = fastest_labels(run);
   const measured = run.results
@@ -47,19 +49,19 @@ export function frontier_section(run) {
       lines: [
         el("strong", {}, result.label),
         el("span", {}, `${fixed(time_ms, time_decimals)} ms${range}`),
-        el("span", {}, `FLIP mean ${fixed(error, error_decimals)}`),
+        el("span", {}, `${error_head} ${fixed(error, error_decimals)}`),
         better === undefined ? null : el("span", {}, `dominated by ${better}`),
       ],
     };
   });
   return el(
     "section",
-    { class: "frontier", "aria-label": "Speed against error" },
+    { class: "frontier", "aria-label": "Speed versus error" },
     scatter_chart({
-      title: "Speed against error",
-      unit: "mean FLIP error",
+      title: "Speed versus error",
+      unit: error_head,
       x_name: "time, ms",
-      label: `Time and mean FLIP error of ${points.length} methods; the arrow keys read the values`,
+      label: `Time and ${error_head} of ${points.length} methods; use the arrow keys to read the values`,
       points,
     }),
     el(

@@ -1,82 +1,106 @@
-// The pictures of one run: all side by side, or two with a line between them; zoom, pan and pixel mark are shared.
-import { el, segmented, select, set_children, unique_id } from "./dom.js";
-import { zoom_text } from "./format.js";
+// The pictures of one run: side by side, two with a dividing line, or one in front of the others. Zoom, position, pixel mark
+// and tools are shared.
+import { color_bar, difference_scale, magma_scale } from "./color_bar.js";
+import { el, set_children, unique_id } from "./dom.js";
+import { ErrorPanel } from "./error_panel.js";
+import { is_number, zoom_text } from "./format.js";
+import { Layer, shown_kind } from "./layer.js";
+import { greatest_differences, worst_pixels } from "./paint.js";
 import { PicturePane } from "./picture_pane.js";
+import { difference_at, levels_text, value_text, ValueTable } from "./value_table.js";
+import { LAYOUTS, ViewState } from "./view_state.js";
+import { key_sheet, listen_to_keys } from "./viewer_keys.js";
+import { ViewerToolbar } from "./viewer_toolbar.js";
 import { Viewport } from "./viewport.js";
 
 const KEYS =
-  "Drag to pan, double-click to zoom in and out. Ctrl and wheel, or the wheel alone after a click, zooms. " +
-  "Keys: arrows pan, Shift and arrows move the pixel mark, + and − zoom, 0 fits, 1 is 100 %.";
-const PICK_KEYS = " A click, or Enter at the mark, takes a pixel apart.";
+  "Drag to pan, double-click to zoom in or out, or zoom with Ctrl and the wheel (after a click, the wheel alone). Arrows pan, " +
+  "Shift and arrows move the pixel mark, + and − zoom, ? lists all keys.";
+const PICK_KEYS = " A click, or Enter at the mark, shows how a pixel is made.";
 const INSPECT_ZOOM = 16;
-const SLIDER_HEIGHT_SHARE = 0.8;
-const MIN_SLIDER_PX = 320;
-
-function swatch(value) {
-  const node = el("span", { class: "swatch", "aria-hidden": "true" }, el("span"));
-  if (value) node.firstChild.style.backgroundColor = `rgb(${value[0]} ${value[1]} ${value[2]} / ${value[3] / 255})`;
-  return node;
-}
-
-/** "12 200 0", with alpha where the picture is not opaque there. */
-function value_text(value) {
-  if (!value) return "";
-  return (value[3] === 255 ? value.slice(0, 3) : value).join(" ");
-}
-
-function value_nodes(value) {
-  return value ? [swatch(value), el("span", { class: "value" }, value_text(value))] : [];
-}
+const HEIGHT_SHARE = 0.8; // of the window, for one large pane
+const LEAST_WIDTH_PX = 320;
+const CYCLES_MS = [0, 1000, 500];
 
 export class ImageViewer {
   #sources;
   #kinds;
   #viewport;
+  #state;
+  #toolbar;
+  #values;
+  #errors;
   #panes = [];
-  #kind;
-  #layout = "grid";
-  #pane_size = "medium";
-  #pair;
   #split = 0.5;
+  #held = false; // the space bar
+  #cycle = 0; // index into CYCLES_MS
+  #timer = null;
+  #frame = null; // in which values are shown
+  #worst = { key: "", pixels: [], index: -1 };
   #on_pick;
   #hint_id = unique_id("keys");
   #stage = el("div", { class: "stage" });
-  #readout = el("span", { class: "readout" });
+  #bar = el("div", { class: "bar-place" });
   #announcer = el("div", { class: "visually-hidden", role: "status" });
-  #zoom_label = el("output", { class: "zoom-value" });
-  #kind_control;
-  #size_control;
-  #layout_control = null;
-  #pair_control = el("div", { class: "pair-control" });
   #note = el("p", { class: "kind-note" });
   #missing = el("ul", { class: "missing-pictures" });
+  #sheet = key_sheet();
 
   /**
-   * `sources`: [{key, label, pictures: {kind: url}, missing}], the reference first; `kinds`: [{key, label, note}],
-   * the first is what the reference has too. A source without pictures says why in `missing`; the reference may have
-   * another `name`. `on_pick(x, y)` hears which pixel is chosen by a click or by Enter; null where nothing comes of it.
+   * `sources`: [{key, label, data: PictureData, missing}], the reference first, with keys 0, 1, 2...; one without pictures says
+   * why in `missing`. `kinds`: [{key, label, note, once}], colors first; a picture that is `once` is the same for all
+   * methods. `on_pick(x, y)` is called when a pixel is chosen by a click or Enter; null if that does nothing. `below`:
+   * elements under the pictures. `on_change(is_step)` is called when what is shown has changed, with true for a step that "back"
+   * should undo.
    */
-  constructor({ width_px, height_px, sources, kinds, on_pick = null }) {
+  constructor({ width_px, height_px, sources, kinds, on_pick = null, below = [], on_change = () => {} }) {
     this.#on_pick = on_pick;
     this.#sources = sources;
     this.#kinds = kinds;
-    this.#kind = kinds[0].key;
     this.#viewport = new Viewport(width_px, height_px);
-    this.#pair = this.#first_pair();
+    const [base, first = base, second = first] = sources.filter(({ data }) => data.has("color")).map(({ key }) => key);
+    this.#state = new ViewState({ mode: kinds[0].key, against: base ?? "0", shown: second ?? "0" });
+    this.#state.addEventListener("change", ({ changed }) => {
+      this.#changed(changed);
+      on_change(changed.some((name) => ["mode", "layout", "against", "shown", "kept"].includes(name)));
+    });
+    for (const event of ["view", "inspect", "area"]) this.#viewport.addEventListener(event, () => on_change(false));
     this.#viewport.addEventListener("view", () => this.#refresh());
-    this.#viewport.addEventListener("cursor", () => this.#show_cursor());
+    this.#viewport.addEventListener("area", () => this.#refresh());
+    this.#viewport.addEventListener("cursor", () => this.#show_cursor_soon());
+    for (const { data } of sources) data.addEventListener("load", () => this.#show_cursor_soon());
     this.#viewport.addEventListener("inspect", () => this.#announce());
+    this.#toolbar = new ViewerToolbar(sources, kinds, this.#state, {
+      fill: () => this.#fill(),
+      keys: () => this.#sheet.showModal(),
+      step: (direction) => this.#viewport.step(direction, this.#pane_size),
+      fit: () => this.#viewport.fit(),
+      full_size: () => this.#viewport.zoom_to(1, this.#pane_size),
+      worst: (direction) => this.#go_to_worst(direction),
+      resize: (size) => {
+        this.#stage.dataset.size = size;
+      },
+    });
+    this.#values = new ValueTable(sources, kinds);
+    this.#errors = new ErrorPanel(sources, this.#state, this.#viewport);
+    this.#stage.dataset.size = "medium";
     this.element = el(
       "section",
       { class: "viewer", "aria-label": "Pictures" },
-      this.#toolbar(),
+      this.#toolbar.element,
       this.#note,
+      this.#bar,
       this.#stage,
       this.#missing,
+      this.#values.element,
+      below,
+      this.#errors.element,
       el("p", { class: "keys-hint", id: this.#hint_id }, KEYS + (on_pick ? PICK_KEYS : "")),
       this.#announcer,
+      this.#sheet,
     );
     this.#build();
+    listen_to_keys(this.element, this.#keys());
   }
 
   /** Zooms to a pixel in every pane and marks it. */
@@ -84,296 +108,356 @@ export class ImageViewer {
     this.#viewport.show_pixel(x, y, INSPECT_ZOOM);
   }
 
-  get #options() {
-    return this.#sources.flatMap((source) =>
-      this.#kinds
-        .filter((kind) => source.pictures[kind.key])
-        .map((kind) => ({
-          value: `${source.key}/${kind.key}`,
-          source,
-          kind,
-          url: source.pictures[kind.key],
-          label: source.reference ? source.label : `${source.label} · ${kind.label}`,
-        })),
-    );
+  /** Shows the source with this label beside the one that it is compared with. */
+  compare_with(label) {
+    const { key } = this.#sources.find((source) => source.label === label);
+    this.#state.set({ layout: "slider", shown: key });
+    this.element.scrollIntoView({ block: "nearest" });
+    this.#panes[0].pane.element.focus({ preventScroll: true });
   }
 
-  #first_pair() {
-    const values = this.#options.map((option) => option.value);
-    const colours = values.filter((value) => value.endsWith(`/${this.#kinds[0].key}`));
-    const left = colours[0] ?? values[0];
-    return [left, colours[2] ?? colours[1] ?? values[1] ?? left];
+  /** What is shown, as texts for the address. */
+  get query() {
+    return { ...this.#state.to_query(), ...this.#viewport.to_query() };
+  }
+  set query(query) {
+    const allowed = { modes: this.#kinds.map(({ key }) => key), sources: this.#sources.map(({ key }) => key) };
+    this.#state.from_query(query, allowed);
+    this.#viewport.from_query(query);
   }
 
-  #toolbar() {
-    this.#kind_control = segmented(
-      "Kind of picture",
-      this.#kinds.map((kind) => [kind.key, kind.label]),
-      this.#kind,
-      (kind) => {
-        this.#kind = kind;
-        this.#build();
+  #source(key) {
+    return this.#sources.find((source) => source.key === key) ?? this.#sources[0];
+  }
+  get #base() {
+    return this.#source(this.#state.get("against"));
+  }
+  get #shown() {
+    return this.#source(this.#state.get("shown"));
+  }
+  get #kept() {
+    const { kept } = this.#state.values;
+    return this.#sources.filter(({ key, data }) => data.has("color") && (!kept || kept.includes(key)));
+  }
+  get #pane_size() {
+    return this.#panes[0]?.pane.size ?? { width: 1, height: 1 };
+  }
+
+  #keys() {
+    const next = (list, current) => list[(list.indexOf(current) + 1) % list.length];
+    const flips = () => this.#state.get("layout") === "flip";
+    return {
+      f: () => this.#fill(),
+      m: () =>
+        this.#state.set({
+          mode: next(
+            this.#kinds.map(({ key }) => key),
+            this.#state.get("mode"),
+          ),
+        }),
+      l: () =>
+        this.#state.set({
+          layout: next(
+            LAYOUTS.map(([key]) => key),
+            this.#state.get("layout"),
+          ),
+        }),
+      n: () => this.#go_to_worst(1),
+      p: () => this.#go_to_worst(-1),
+      c: () => flips() && this.#set_cycle((this.#cycle + 1) % CYCLES_MS.length),
+      "?": () => this.#sheet.showModal(),
+      " ": () => flips() && this.#hold(true),
+      Escape: () => this.#escape(),
+      digit: (number) => {
+        const source = this.#sources[number];
+        if (this.#state.get("layout") === "grid" || !source?.data.has("color")) return false;
+        return this.#state.set({ shown: source.key });
       },
-    );
-    this.#size_control = segmented(
-      "Size of the panes",
-      [
-        ["small", "S", "Small panes"],
-        ["medium", "M", "Medium panes"],
-        ["large", "L", "Large panes"],
-      ],
-      this.#pane_size,
-      (size) => {
-        this.#pane_size = size;
-        this.#stage.dataset.size = size;
-      },
-    );
-    const first_pane = () => this.#panes[0]?.pane.size ?? { width: 1, height: 1 };
-    const button = (text, label, action) =>
-      el("button", { type: "button", title: label, "aria-label": label, onclick: action }, text);
-    this.#layout_control = segmented(
-      "Layout",
-      [
-        ["grid", "Side by side"],
-        ["slider", "Slider"],
-      ],
-      this.#layout,
-      (layout) => {
-        this.#layout = layout;
-        this.#build();
-      },
-    );
-    return el(
-      "div",
-      { class: "toolbar", role: "group", "aria-label": "Picture tools" },
-      this.#layout_control,
-      this.#kind_control,
-      this.#pair_control,
-      this.#readout,
-      this.#size_control,
-      el(
-        "div",
-        { class: "zoom-control" },
-        button("−", "Zoom out", () => this.#viewport.step(-1, first_pane())),
-        this.#zoom_label,
-        button("+", "Zoom in", () => this.#viewport.step(1, first_pane())),
-        button("Fit", "Fit the pictures into the panes", () => this.#viewport.fit()),
-        button("1:1", "1:1, a picture pixel is a screen pixel", () => this.#viewport.zoom_to(1, first_pane())),
-      ),
-    );
+      release: () => this.#hold(false),
+    };
+  }
+
+  #escape() {
+    if (this.#viewport.area) this.#viewport.area = null;
+    else if (this.element.classList.contains("filling")) this.#fill();
+    else return false;
+    return true;
+  }
+
+  #fill() {
+    const fills = this.element.classList.toggle("filling");
+    document.documentElement.classList.toggle("has-filling", fills);
+    this.#toolbar.show_filling(fills);
+    this.#build();
+  }
+
+  #hold(held) {
+    this.#held = held;
+    this.#show_front();
+  }
+
+  #set_cycle(index) {
+    this.#cycle = index;
+    clearInterval(this.#timer);
+    if (CYCLES_MS[index] === 0) return;
+    this.#timer = setInterval(() => {
+      if (!this.element.isConnected) clearInterval(this.#timer);
+      const keys = this.#kept.map(({ key }) => key);
+      this.#state.set({ shown: keys[(keys.indexOf(this.#state.get("shown")) + 1) % keys.length] });
+    }, CYCLES_MS[index]);
+  }
+
+  async #go_to_worst(direction) {
+    const [base, shown] = [this.#base, this.#shown];
+    const key = `${base.key} ${shown.key}`;
+    if (this.#worst.key !== key) {
+      if (!shown_kind(shown, "difference", base) || shown === base) return;
+      const rasters = await Promise.all([base.data.load("color"), shown.data.load("color")]);
+      const pixels = worst_pixels(greatest_differences(...rasters), rasters[0].width);
+      this.#worst = { key, pixels, index: direction > 0 ? -1 : 0 };
+    }
+    const { pixels, index } = this.#worst;
+    if (pixels.length === 0) {
+      this.#announcer.textContent = `${shown.label} and ${base.label} do not differ.`;
+      return;
+    }
+    this.#worst.index = (index + direction + pixels.length) % pixels.length;
+    this.show_pixel(...pixels[this.#worst.index]);
+  }
+
+  /** After a change of the state: layers are repainted; panes are made again only for another arrangement. */
+  #changed(names) {
+    const { layout } = this.#state.values;
+    const flips_only = layout === "flip" && names.every((name) => name === "shown");
+    const tone_only = names.every((name) => ["exposure", "gamma", "channel", "gain", "absolute"].includes(name));
+    if (layout !== "flip") this.#set_cycle(0);
+    if (flips_only) this.#show_front();
+    else if (tone_only) for (const { pane } of this.#panes) pane.layers.forEach((layer) => layer.update());
+    else this.#build();
+    this.#refresh();
+    this.#toolbar.update();
+    this.#show_cursor();
   }
 
   #build() {
     for (const { pane } of this.#panes) pane.resize_observer.disconnect();
-    const slider = this.#layout === "slider";
-    this.#kind_control.hidden = slider || this.#kinds.length < 2;
-    this.#size_control.hidden = slider;
-    this.#pair_control.hidden = !slider;
-    const kind = this.#kinds.find((one) => one.key === this.#kind);
-    this.#note.textContent = slider ? "" : (kind.note ?? "");
-    this.#note.hidden = !this.#note.textContent;
-    if (slider) this.#build_slider();
-    else this.#build_grid(kind);
+    this.#panes = [];
+    const { layout, mode } = this.#state.values;
+    this.#toolbar.update();
+    const kind = this.#kinds.find(({ key }) => key === mode);
+    this.#note.textContent = kind.note ?? "";
+    this.#note.hidden = !kind.note;
+    this.#missing.replaceChildren();
+    this.#stage.className = `stage ${layout}`;
+    if (layout === "grid") this.#build_grid(kind);
+    else if (layout === "slider") this.#build_slider();
+    else this.#build_flip();
     this.#refresh();
     this.#show_cursor();
   }
 
+  #layer(source) {
+    return new Layer({ source, base: this.#base, state: this.#state, kinds: this.#kinds, size: this.#viewport.size });
+  }
+
+  #pane(label, layers, options = {}) {
+    const pane = new PicturePane(this.#viewport, {
+      label,
+      hint_id: this.#hint_id,
+      on_pick: this.#on_pick,
+      on_mark: (from, to) => this.#mark(from, to),
+      on_resize: () => this.#toolbar.show_zoom(this.#zoom_text),
+      ...options,
+    });
+    const [width, height] = this.#viewport.size;
+    pane.element.style.aspectRatio = `${width} / ${height}`;
+    pane.show(layers, layers.length === 2 && Boolean(options.on_split));
+    return pane;
+  }
+
   #build_grid(kind) {
-    this.#panes = [];
-    const shown_kind = (source) => (source.reference ? this.#kinds[0] : kind);
-    const shown = this.#sources.filter((source) => source.pictures[shown_kind(source).key]);
-    const missing = this.#sources.filter((source) => !shown.includes(source));
-    this.#stage.className = "stage grid";
-    this.#stage.dataset.size = this.#pane_size;
+    const is_shown = (source) =>
+      source.reference || source === this.#base || shown_kind(source, kind.key, this.#base) === kind.key;
+    const shown = kind.once ? this.#kept.filter(({ data }) => data.has(kind.key)) : this.#kept.filter(is_shown);
+    const has_none = kind.once
+      ? []
+      : this.#sources.filter((source) => !shown.includes(source) && !this.#kept.includes(source));
+    const lacks = kind.once ? [] : this.#kept.filter((source) => !shown.includes(source));
+    const { kept } = this.#state.values;
     set_children(
       this.#stage,
-      shown.map((source) => this.#figure(source, shown_kind(source), kind)),
+      shown.map((source) => this.#figure(source, kind)),
     );
     set_children(
       this.#missing,
-      missing.map((source) =>
-        el(
-          "li",
-          {},
-          el("strong", {}, source.label),
-          ` has no ${kind.label} picture`,
-          source.missing ? `: ${source.missing}` : "",
-        ),
+      [...lacks, ...has_none.filter(({ key, data }) => !data.has("color") && (!kept || kept.includes(key)))].map(
+        (source) =>
+          el(
+            "li",
+            {},
+            el("strong", {}, source.label),
+            ` has no ${kind.label} picture`,
+            source.missing ? `: ${source.missing}` : "",
+          ),
       ),
     );
   }
 
-  #figure(source, shown, asked) {
+  #figure(source, asked) {
     const value = el("span", { class: "pane-value" });
-    const base = this.#sources.find((one) => one.reference);
-    const slide = `Slide between ${base?.name ?? "the reference"} and ${source.label}`;
-    const caption = el(
-      "figcaption",
-      {},
-      el("span", { class: "pane-name", title: source.title }, source.label),
-      shown === asked ? null : el("span", { class: "muted" }, shown.label.toLowerCase()),
-      value,
-      source.reference
-        ? null
-        : el(
-            "button",
-            {
-              type: "button",
-              class: "quiet small",
-              title: slide,
-              "aria-label": slide,
-              onclick: () => this.#slide_to(source),
-            },
-            "Slide",
-          ),
+    const slide = `Slide between ${this.#base.name ?? this.#base.label} and ${source.label}`;
+    const layer = this.#layer(source);
+    const shown = this.#kinds.find(({ key }) => key === layer.kind);
+    const pane = this.#pane(layer.alt, [layer]);
+    this.#panes.push({ pane, values: [{ node: value, layer }] });
+    return el(
+      "figure",
+      { class: "pane", "data-source": source.key },
+      pane.element,
+      el(
+        "figcaption",
+        {},
+        el("kbd", {}, source.key),
+        el("span", { class: "pane-name", title: source.title }, asked.once ? asked.label : source.label),
+        shown === asked ? null : el("span", { class: "muted" }, shown.label.toLowerCase()),
+        value,
+        source === this.#base
+          ? null
+          : el(
+              "button",
+              {
+                type: "button",
+                class: "quiet small",
+                title: slide,
+                "aria-label": slide,
+                onclick: () => this.compare_with(source.label),
+              },
+              "Slide",
+            ),
+      ),
     );
-    const alt = `${source.label}: ${shown.label}`;
-    const pane = new PicturePane(this.#viewport, {
-      label: alt,
-      hint_id: this.#hint_id,
-      on_pick: this.#on_pick,
-      on_resize: () => this.#show_zoom(),
-    });
-    this.#set_shape(pane.element);
-    pane.show({ url: source.pictures[shown.key], alt });
-    this.#panes.push({ pane, values: [value] });
-    return el("figure", { class: "pane", "data-source": source.key }, pane.element, caption);
+  }
+
+  #large_figure(pane, caption) {
+    const figure = el("figure", { class: "pane" }, pane.element, el("figcaption", {}, caption));
+    const [width] = this.#viewport.size;
+    const fills = this.element.classList.contains("filling");
+    const zoom = this.#viewport.fit_zoom(this.#stage.clientWidth - 2 || Infinity, window.innerHeight * HEIGHT_SHARE);
+    const whole_px = (width * zoom) / (window.devicePixelRatio || 1) + 2;
+    figure.style.maxWidth = fills ? "" : `${Math.max(LEAST_WIDTH_PX, whole_px)}px`;
+    set_children(this.#stage, figure);
   }
 
   #build_slider() {
-    const options = this.#options;
-    const chosen = this.#pair.map((value) => options.find((option) => option.value === value));
-    const values = [el("span", { class: "pane-value" }), el("span", { class: "pane-value" })];
-    const pane = new PicturePane(this.#viewport, {
-      label: `${chosen[0].label} left of the line, ${chosen[1].label} right of it`,
-      hint_id: this.#hint_id,
-      on_pick: this.#on_pick,
-      on_resize: () => this.#show_zoom(),
+    const [left, right] = [this.#base, this.#shown];
+    const layers = [this.#layer(left), this.#layer(right)];
+    const values = layers.map((layer) => ({ node: el("span", { class: "pane-value" }), layer }));
+    const pane = this.#pane(`${layers[0].alt} left of the line, ${layers[1].alt} right of it`, layers, {
       on_split: (fraction) => {
         this.#split = fraction;
       },
     });
     pane.element.classList.add("sliding");
-    this.#set_shape(pane.element);
-    pane.show(...chosen.map((option) => ({ url: option.url, alt: option.label })));
     pane.split = this.#split;
     this.#panes = [{ pane, values }];
-    this.#missing.replaceChildren();
-    this.#stage.className = "stage slider";
-    const figure = el(
-      "figure",
-      { class: "pane" },
-      pane.element,
-      el(
-        "figcaption",
-        {},
-        el("span", { class: "side" }, el("span", { class: "pane-name" }, chosen[0].label), values[0]),
-        el("span", { class: "side right" }, values[1], el("span", { class: "pane-name" }, chosen[1].label)),
-      ),
-    );
-    figure.style.maxWidth = `${this.#slider_width()}px`;
-    set_children(this.#stage, figure);
-    this.#build_pair_control(options);
-  }
-
-  /** As wide as the picture when all of it is shown as large as the window allows. */
-  #slider_width() {
-    const [width] = this.#viewport.size;
-    const zoom = this.#viewport.fit_zoom(this.#stage.clientWidth - 2, window.innerHeight * SLIDER_HEIGHT_SHARE);
-    return Math.max(MIN_SLIDER_PX, (width * zoom) / (window.devicePixelRatio || 1) + 2);
-  }
-
-  #build_pair_control(options) {
-    const groups = this.#sources
-      .map((source) => ({
-        label: source.label,
-        choices: options.filter((option) => option.source === source).map((option) => [option.value, option.label]),
-      }))
-      .filter((group) => group.choices.length > 0);
-    const choose = (side, label) =>
-      select(
-        {
-          "aria-label": label,
-          onchange: (event) => {
-            this.#pair[side] = event.target.value;
-            this.#build();
-          },
-        },
-        groups,
-        this.#pair[side],
-      );
-    set_children(
-      this.#pair_control,
-      choose(0, "Left picture"),
-      el(
-        "button",
-        {
-          type: "button",
-          title: "Swap the two pictures",
-          "aria-label": "Swap the two pictures",
-          onclick: () => {
-            this.#pair.reverse();
-            this.#build();
-          },
-        },
-        "⇄",
-      ),
-      choose(1, "Right picture"),
+    this.#large_figure(pane, [
+      el("span", { class: "side" }, el("span", { class: "pane-name" }, left.label), values[0].node),
+      el("span", { class: "side right" }, values[1].node, el("span", { class: "pane-name" }, right.label)),
+    ]);
+    pane.element.append(
+      el("span", { class: "big-name left", "aria-hidden": "true" }, left.label),
+      el("span", { class: "big-name right", "aria-hidden": "true" }, right.label),
     );
   }
 
-  #slide_to(source) {
-    const reference = this.#options.find((option) => option.source.reference) ?? this.#options[0];
-    this.#pair = [reference.value, `${source.key}/${source.pictures[this.#kind] ? this.#kind : this.#kinds[0].key}`];
-    this.#layout = "slider";
-    for (const button of this.#layout_control.children) {
-      button.setAttribute("aria-pressed", String(button.dataset.value === "slider"));
-    }
-    this.#build();
-    this.#panes[0].pane.element.focus({ preventScroll: true });
+  #build_flip() {
+    const sources = [...new Set([this.#base, ...this.#kept, this.#shown])].filter(({ data }) => data.has("color"));
+    const layers = sources.map((source) => this.#layer(source));
+    const pane = this.#pane("", layers);
+    const name = el("span", { class: "pane-name" });
+    const value = { node: el("span", { class: "pane-value" }), layer: layers[0] };
+    this.#panes = [{ pane, values: [value], name, big: el("span", { class: "big-name left", "aria-hidden": "true" }) }];
+    this.#large_figure(pane, [name, value.node]);
+    pane.element.append(this.#panes[0].big);
+    this.#show_front();
   }
 
-  #set_shape(element) {
+  #show_front() {
+    const [{ pane, values, name, big }] = this.#panes;
+    if (!big) return;
+    const source = this.#held ? this.#base : this.#shown;
+    pane.front = pane.layers.find((layer) => layer.source === source) ?? pane.layers[0];
+    values[0].layer = pane.front;
+    name.textContent = pane.front.source.label;
+    big.textContent = `${source.key} ${source.label}`;
+    this.#show_cursor();
+  }
+
+  #mark([x0, y0], [x1, y1]) {
     const [width, height] = this.#viewport.size;
-    element.style.aspectRatio = `${width} / ${height}`;
+    const clamp = (value, most) => Math.min(most, Math.max(0, value));
+    const [left, right] = [Math.min(x0, x1), Math.max(x0, x1) + 1].map((x) => clamp(x, width));
+    const [top, bottom] = [Math.min(y0, y1), Math.max(y0, y1) + 1].map((y) => clamp(y, height));
+    this.#viewport.area = left < right && top < bottom ? [left, top, right, bottom] : null;
+  }
+
+  get #zoom_text() {
+    return this.#panes[0]?.pane.size.width ? zoom_text(this.#panes[0].pane.zoom) : "";
   }
 
   #refresh() {
     for (const { pane } of this.#panes) pane.refresh();
-    this.#show_zoom();
+    this.#toolbar.show_zoom(this.#zoom_text);
   }
 
-  #show_zoom() {
-    const zoom = this.#panes[0]?.pane.size.width ? this.#panes[0].pane.zoom : null;
-    this.#zoom_label.textContent = zoom === null ? "" : zoom_text(zoom);
+  /** Once for all moves of the mouse before the next frame. */
+  #show_cursor_soon() {
+    this.#frame ??= requestAnimationFrame(() => {
+      this.#frame = null;
+      this.#show_cursor();
+    });
   }
 
   #show_cursor() {
-    const cursor = this.#viewport.cursor;
+    const { cursor } = this.#viewport;
     for (const { pane, values } of this.#panes) {
       pane.refresh();
-      const read = cursor ? pane.read(...cursor) : [];
-      values.forEach((node, side) => set_children(node, value_nodes(read[side])));
+      for (const { node, layer } of values) {
+        const text = cursor ? value_text(layer.source, this.#base, layer.kind, ...cursor) : "";
+        set_children(node, text ? el("span", { class: "value" }, text) : null);
+      }
     }
-    this.#readout.textContent = cursor ? this.#cursor_text(cursor) : "";
+    this.#values.show(cursor, this.#base);
+    this.#show_bar(cursor);
   }
 
-  #cursor_text([x, y]) {
-    const [a, b] = this.#panes[0].pane.read(x, y);
-    const channels = a && b ? (a[3] === 255 && b[3] === 255 ? [0, 1, 2] : [0, 1, 2, 3]) : [];
-    const difference = channels
-      .map((channel) => a[channel] - b[channel])
-      .join(" ")
-      .replaceAll("-", "−");
-    return `x ${x}, y ${y}${difference ? ` · left − right ${difference}` : ""}`;
+  #show_bar(cursor) {
+    const { mode } = this.#state.values;
+    const sources = this.#kept;
+    if (mode === "color") {
+      this.#bar.replaceChildren();
+      return;
+    }
+    const marks = [];
+    const mark = (source, value) => is_number(value) && marks.push({ value, name: source.label });
+    if (mode === "difference") {
+      for (const source of cursor ? sources.filter((one) => one !== this.#base) : []) {
+        const difference = difference_at(this.#base, source, ...cursor);
+        difference?.forEach((value) => mark(source, this.#state.get("absolute") ? Math.abs(value) : value));
+      }
+      set_children(this.#bar, color_bar(difference_scale(this.#state.values), marks));
+      return;
+    }
+    const with_map = sources.filter(({ data }) => data.has(mode));
+    for (const source of cursor ? with_map : []) mark(source, source.data.map_value(mode, ...cursor));
+    const full = with_map[0]?.data.full_scale(mode) ?? 1;
+    set_children(this.#bar, with_map.length > 0 ? color_bar(magma_scale(full), marks) : null);
   }
 
   #announce() {
-    const cursor = this.#viewport.cursor;
+    const { cursor } = this.#viewport;
     if (!cursor) return;
-    const values = this.#panes.flatMap(({ pane }) =>
-      pane.read(...cursor).map((value) => `${pane.element.getAttribute("aria-label")} ${value_text(value)}`),
-    );
+    const values = this.#kept.map((source) => `${source.label} ${levels_text(source.data.levels("color", ...cursor))}`);
     this.#announcer.textContent = `Pixel ${cursor.join(", ")}: ${values.join("; ")}`;
   }
 }

@@ -1,4 +1,4 @@
-// Where in a JSON text the value at a JSON pointer stands, so that an error can be shown in the text.
+// Finds the value at a JSON pointer in a JSON text, so that an error can be shown in the text.
 
 class Scanner {
   constructor(text) {
@@ -46,7 +46,7 @@ class Scanner {
   }
 }
 
-/** [start, end) of the value, or of the nearest part that holds it. `text` must be valid JSON. */
+/** [start, end) of the value, or of the nearest enclosing part. `text` must be valid JSON. */
 export function json_range(text, pointer) {
   const scanner = new Scanner(text);
   scanner.value("");

@@ -1,7 +1,7 @@
-// Notes: what of an input was not read, or was read otherwise than it was meant.
+// Notes: what was not read from an input, or was read differently than intended.
 import { el } from "./dom.js";
 
-/** A list of notes [{code, text, where}], null where there are none. */
+/** A list of notes [{code, text, where}], null if there are none. */
 export function note_list(notes) {
   if (notes.length === 0) return null;
   return el(

@@ -1,4 +1,4 @@
-// Form fields made from the descriptions of parameters, as the service gives them.
+// Form fields made from the service's descriptions of parameters.
 import { asset_control } from "./asset_field.js";
 import { el, select, set_children, unique_id } from "./dom.js";
 import { words } from "./format.js";
@@ -6,17 +6,6 @@ import { pointer_of } from "./spec_model.js";
 
 const LONG_TEXT_BYTES = 200;
 const LONG_HINT = 90;
-const LETTERS = {
-  rect: ["x0", "y0", "x1", "y1"],
-  color: ["red", "green", "blue"],
-  background: ["red", "green", "blue"],
-  eye: ["x", "y", "z"],
-  target: ["x", "y", "z"],
-  up: ["x", "y", "z"],
-  size: ["x", "y", "z"],
-  spacing: ["x", "y", "z"],
-};
-
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 const is_whole = (param) => param.kind === "integer" || param.whole === true;
@@ -31,7 +20,7 @@ function next_number(bound, direction) {
   return bits.getFloat64(0);
 }
 
-/** min, max and step of an input; it knows no bounds that are excluded, so there it gets the numbers next to them. */
+/** min, max and step of an input, which has no exclusive bounds: instead of those it gets the numbers next to them. */
 export function input_range(param) {
   const bound = (value, direction) => {
     if (typeof value !== "number") return null;
@@ -41,7 +30,7 @@ export function input_range(param) {
   return { min: bound(param.min, 1), max: bound(param.max, -1), step: is_whole(param) ? (param.step ?? 1) : "any" };
 }
 
-/** What an input of numbers holds: undefined where it is empty, null where it is no number, which the service refuses. */
+/** The value of a number input: undefined if it is empty, null if it is not a number, which the service refuses. */
 function read_number(input) {
   if (input.validity.badInput) return null;
   return input.value === "" ? undefined : Number(input.value);
@@ -56,7 +45,7 @@ export function range_text(param) {
   return has_max ? `${param.exclusive ? "under" : "up to"} ${param.max}` : "";
 }
 
-/** A labelled field with room for its hint and its error. */
+/** A labelled field with its hint and room for its error. */
 export function field_frame(param, path, control, { for_id, group = false } = {}) {
   const suffix = param.unit ? `_${param.unit.toLowerCase()}` : "";
   const name = suffix && param.name.endsWith(suffix) ? param.name.slice(0, -suffix.length) : param.name;
@@ -79,7 +68,7 @@ export function field_frame(param, path, control, { for_id, group = false } = {}
   );
 }
 
-/** Takes the value out of the spec where it is the default. */
+/** Removes the value from the spec if it is the default. */
 function store(model, path, param, value) {
   const is_default = !param.required && same(value, param.default);
   model.set(path, value === undefined || is_default ? undefined : value);
@@ -123,7 +112,7 @@ function boolean_field(param, path, model) {
   return field_frame(param, path, input, { for_id: id });
 }
 
-/** Stands for the object that a choice may be instead; no choice is called so. */
+/** The value for the object that may replace a choice; no choice has this name. */
 const OWN = "";
 
 function choice_field(param, path, model) {
@@ -143,7 +132,7 @@ function choice_field(param, path, model) {
   };
   const input = select({ id, onchange: choose }, choices, current);
   const frame = field_frame(param, path, fields.length > 0 ? el("div", {}, input, own_fields) : input, { for_id: id });
-  // The fields have hints and errors of their own, so they come when the frame has been made.
+  // The fields have hints and errors of their own, so they are added after the frame has been made.
   draw();
   return frame;
 }
@@ -154,7 +143,7 @@ function asset_field(param, path, model) {
   return field_frame(param, path, control.element, { for_id: control.id });
 }
 
-/** One file for all, or with a tick one for each. */
+/** One file for all, or, if ticked, one for each. */
 function several_assets_field(param, path, model) {
   const stored = () => model.get(path) ?? param.default;
   const id = unique_id("field");
@@ -233,24 +222,23 @@ function numbers_field(param, path, model) {
     return Array.isArray(stored) ? stored : [];
   };
   const count = param.max_length ?? value().length;
-  const named = LETTERS[param.name];
-  const letters = named?.length === count ? named : Array.from({ length: count }, (_, index) => `number ${index + 1}`);
+  const names = param.parts ?? Array.from({ length: count }, (_, index) => `number ${index + 1}`);
   const change = (index, part) => {
-    const next = letters.map((_, at) => (at === index ? part : value()[at]) ?? null);
+    const next = names.map((_, at) => (at === index ? part : value()[at]) ?? null);
     const emptied = param.optional && next.every((one) => one === null);
     store(model, path, param, emptied ? undefined : next);
     if (picker) picker.value = to_hex(next);
   };
-  const inputs = letters.map((letter, index) =>
+  const inputs = names.map((part, index) =>
     number_input(
       { ...param, kind: "number", default: null },
       value()[index],
       (part) => change(index, part),
-      `${words(param.name)} ${letter}`,
+      `${words(param.name)} ${part}`,
     ),
   );
   const picker =
-    letters[0] === "red"
+    names[0] === "red"
       ? el("input", {
           type: "color",
           "aria-label": `${words(param.name)} picker`,
@@ -270,7 +258,7 @@ function numbers_field(param, path, model) {
 function object_field(param, path, model) {
   if (param.optional) return optional_object_field(param, path, model);
   const fields = fields_of(param.fields ?? [], path, model);
-  // Beside a file the object that may be left out says what the bytes are: needed without a header, else of no use.
+  // The optional object next to a file describes its bytes: it is needed if there is no header, and useless otherwise.
   fields.addEventListener("filechosen", ({ detail }) => {
     const box = fields.querySelector(":scope > .kind-object .ticked input");
     if (box && box.checked !== detail.bare) box.click();
@@ -278,9 +266,9 @@ function object_field(param, path, model) {
   return field_frame(param, path, fields, { group: true });
 }
 
-/** An object that may be left out: a box that puts it into the spec, and its fields while it is there. */
+/** An optional object: a box that adds it to the spec, and its fields while it is there. */
 function optional_object_field(param, path, model) {
-  // The model drops an object that has lost its last field; here the box alone says whether it is there.
+  // The model drops an object that has lost its last field; here only the box decides whether it is there.
   const kept = {
     get: (at) => model.get(at),
     set: (at, value) => {
@@ -306,20 +294,20 @@ function optional_object_field(param, path, model) {
   return field_frame(param, path, el("div", {}, line, fields), { group: true });
 }
 
-/** A value for a field that must be given, undefined where only a person can know it, as a file. */
+/** A value for a required field; undefined if only the user can know it, such as a file. */
 export function first_value(param) {
   if (param.kind === "list") return [new_entry(param.fields)];
   if (param.kind === "object") return new_entry(param.fields);
   return param.suggestion ?? param.default ?? undefined;
 }
 
-/** A new object: only the fields that must be given. */
+/** A new object with only the required fields. */
 export function new_entry(fields) {
   const entries = fields.filter((field) => field.required).map((field) => [field.name, first_value(field)]);
   return structuredClone(Object.fromEntries(entries.filter(([, value]) => value !== undefined)));
 }
 
-/** A list that is not in the spec stands for the usual entries; they come into the spec to be changed. */
+/** A list that is not in the spec means the usual entries; they are added to the spec when they are edited. */
 function list_field(param, path, model) {
   const rows = el("ol", { class: "rows" });
   const entries = () => {
@@ -382,7 +370,7 @@ function list_field(param, path, model) {
   return field_frame(param, path, el("div", {}, rows, more), { group: true });
 }
 
-/** Any JSON: text that is not JSON is taken as a text. */
+/** Any JSON; anything else is taken as a string. */
 function any_field(param, path, model) {
   const id = unique_id("field");
   const value = model.get(path) ?? param.default;
@@ -396,7 +384,7 @@ function any_field(param, path, model) {
       try {
         read = JSON.parse(input.value);
       } catch {
-        // A word without quotes means itself.
+        // A word without quotes is taken as it is.
       }
       store(model, path, param, input.value === "" ? undefined : read);
     },
@@ -417,7 +405,7 @@ const FIELDS = {
   any: any_field,
 };
 
-/** The fields of an object that lies at `path` of the spec. */
+/** The fields of the object at `path` in the spec. */
 export function fields_of(params, path, model) {
   return el(
     "div",

@@ -1,6 +1,6 @@
-// One pane of the viewer: a picture, or two with a movable line between them, seen through the shared viewport.
+// One pane of the viewer: a picture, two with a movable dividing line, or several of which one is in front, seen through
+// the shared viewport.
 import { el } from "./dom.js";
-import { PixelReader } from "./pixel_reader.js";
 
 const MARK_MIN_PX = 7;
 const INSPECT_ZOOM = 8;
@@ -8,28 +8,30 @@ const KEY_PAN_SHARE = 0.1;
 const CLICK_SLACK_PX = 3;
 const DOUBLE_CLICK_MS = 250;
 
-function picture(url, alt, viewport) {
-  const [width, height] = viewport.size;
-  return el("img", { src: url, alt, width, height, draggable: "false", decoding: "async" });
-}
-
 export class PicturePane {
   #viewport;
   #view;
   #mark = el("div", { class: "pixel-mark", hidden: true });
-  #pictures = [];
+  #area = el("div", { class: "marked-area", hidden: true });
+  #layers = [];
+  #front = null;
   #divider = null;
   #drag = null;
+  #touches = new Map(); // positions of the fingers by their ids
   #split = 0.5;
   #on_pick;
+  #on_mark;
+  #marked = null; // where a rectangle was begun
   #picking = null;
   #pressed_at = null;
 
   /**
-   * `hint_id` is the id of the text that explains the keys. `on_split(fraction)` hears of the line's
-   * moves, `on_resize()` of a new size, `on_pick(x, y)` of a pixel that was clicked or chosen by Enter.
+   * `hint_id` is the id of the text that explains the keys. `on_split(fraction)` is called when the line
+   * moves, `on_resize()` after a resize, `on_pick(x, y)` when a pixel is clicked or chosen by Enter, `on_mark(from, to)`
+   * while a rectangle is drawn with Shift.
    */
-  constructor(viewport, { label, hint_id, on_split = () => {}, on_resize = () => {}, on_pick = null }) {
+  constructor(viewport, { label, hint_id, on_split = () => {}, on_resize = () => {}, on_pick = null, on_mark = null }) {
+    this.#on_mark = on_mark;
     this.#on_pick = on_pick;
     this.#viewport = viewport;
     this.on_split = on_split;
@@ -50,19 +52,31 @@ export class PicturePane {
     this.resize_observer.observe(this.#view);
   }
 
-  /** Shows one picture, or two with a line between them: {url, alt} each. */
-  show(...sources) {
-    this.#pictures = sources.map(({ url, alt }) => {
-      const image = picture(url, alt, this.#viewport);
-      return { image, reader: new PixelReader(image), frame: el("div", { class: "picture" }, image) };
-    });
-    this.#divider = sources.length > 1 ? (this.#divider ?? this.#make_divider()) : null;
+  /** Shows layers, with `divided` two with a line between them. */
+  show(layers, divided = false) {
+    this.#layers = layers;
+    this.#divider = divided ? (this.#divider ?? this.#make_divider()) : null;
     this.#view.replaceChildren(
-      ...this.#pictures.map((shown) => shown.frame),
+      ...layers.map((layer) => layer.frame),
+      this.#area,
       this.#mark,
       ...(this.#divider ? [this.#divider] : []),
     );
     this.refresh();
+  }
+
+  get layers() {
+    return this.#layers;
+  }
+
+  /** Of several layers the one that is seen. */
+  set front(front) {
+    this.#front = front;
+    for (const layer of this.#layers) layer.frame.classList.toggle("behind", layer !== front);
+    this.#view.setAttribute("aria-label", front.alt);
+  }
+  get front() {
+    return this.#front ?? this.#layers[0];
   }
 
   get size() {
@@ -72,11 +86,6 @@ export class PicturePane {
     return this.#viewport.zoom_in(this.size.width, this.size.height);
   }
 
-  /** Values of the pixel in every picture of the pane, null where they are not loaded. */
-  read(x, y) {
-    return this.#pictures.map((shown) => shown.reader.read(x, y));
-  }
-
   refresh() {
     const { width, height } = this.size;
     if (width === 0 || height === 0) return;
@@ -84,14 +93,25 @@ export class PicturePane {
     const { scale, left, top } = this.#viewport.place(width, height, corner.left, corner.top);
     const [columns, rows] = this.#viewport.size;
     const pixelated = scale * (window.devicePixelRatio || 1) >= 1;
-    for (const { image } of this.#pictures) {
-      image.style.transform = `translate(${left}px, ${top}px)`;
-      image.style.width = `${columns * scale}px`;
-      image.style.height = `${rows * scale}px`;
-      image.classList.toggle("pixelated", pixelated);
+    for (const { node } of this.#layers) {
+      node.style.transform = `translate(${left}px, ${top}px)`;
+      node.style.width = `${columns * scale}px`;
+      node.style.height = `${rows * scale}px`;
+      node.classList.toggle("pixelated", pixelated);
     }
     this.#place_mark(scale, left, top);
+    this.#place_area(scale, left, top);
     this.#place_divider();
+  }
+
+  #place_area(scale, left, top) {
+    const { area } = this.#viewport;
+    this.#area.hidden = !area;
+    if (!area) return;
+    const [x0, y0, x1, y1] = area;
+    this.#area.style.transform = `translate(${left + x0 * scale}px, ${top + y0 * scale}px)`;
+    this.#area.style.width = `${(x1 - x0) * scale}px`;
+    this.#area.style.height = `${(y1 - y0) * scale}px`;
   }
 
   get split() {
@@ -112,6 +132,8 @@ export class PicturePane {
     const y = top + (cursor[1] + 0.5) * scale - side / 2;
     this.#mark.style.transform = `translate(${x}px, ${y}px)`;
     this.#mark.style.width = this.#mark.style.height = `${side}px`;
+    // The handle keeps away from the mark.
+    this.#divider?.style.setProperty("--handle", y + side / 2 > this.size.height / 2 ? "20%" : "80%");
   }
 
   #place_divider() {
@@ -119,7 +141,7 @@ export class PicturePane {
     const share = `${this.#split * 100}%`;
     this.#divider.style.left = share;
     this.#divider.setAttribute("aria-valuenow", Math.round(this.#split * 100));
-    this.#pictures[1].frame.style.clipPath = `inset(0 0 0 ${share})`;
+    this.#layers[1].frame.style.clipPath = `inset(0 0 0 ${share})`;
   }
 
   #make_divider() {
@@ -165,18 +187,16 @@ export class PicturePane {
       if (event.button !== 0) return;
       view.focus({ preventScroll: true });
       this.#drag = this.#pressed_at = [event.clientX, event.clientY];
+      this.#touches.set(event.pointerId, this.#drag);
+      if (this.#on_mark && event.shiftKey) this.#marked = this.#pixel_at(event).map(Math.floor);
       view.setPointerCapture(event.pointerId);
     });
-    view.addEventListener("pointermove", (event) => {
-      if (this.#drag) {
-        this.#viewport.pan(event.clientX - this.#drag[0], event.clientY - this.#drag[1], this.size);
-        this.#drag = [event.clientX, event.clientY];
-      }
-      this.#viewport.set_cursor(this.#pixel_at(event).map(Math.floor));
-    });
+    view.addEventListener("pointermove", (event) => this.#move(event));
     for (const end of ["pointerup", "pointercancel"])
-      view.addEventListener(end, () => {
+      view.addEventListener(end, (event) => {
+        this.#touches.delete(event.pointerId);
         this.#drag = null;
+        this.#marked = null;
       });
     view.addEventListener("pointerleave", () => this.#viewport.set_cursor(null));
     view.addEventListener("click", (event) => this.#click(event));
@@ -188,7 +208,7 @@ export class PicturePane {
     view.addEventListener(
       "wheel",
       (event) => {
-        // The wheel scrolls the page unless the user has turned to the picture.
+        // The wheel scrolls the page unless the picture has the focus.
         if (!event.ctrlKey && !event.metaKey && document.activeElement !== view) return;
         event.preventDefault();
         this.#viewport.step(event.deltaY < 0 ? 1 : -1, this.size, ...this.#pixel_at(event));
@@ -198,14 +218,44 @@ export class PicturePane {
     view.addEventListener("keydown", (event) => this.#key(event));
   }
 
-  /** Of a double click, which zooms, nothing is picked; nor at the end of a drag. */
+  #move(event) {
+    const here = [event.clientX, event.clientY];
+    const pixel = this.#pixel_at(event).map(Math.floor);
+    const before = this.#touches.get(event.pointerId);
+    if (before && this.#touches.size === 2) this.#pinch(event.pointerId, here);
+    else if (this.#marked) this.#on_mark(this.#marked, pixel);
+    else if (this.#drag) {
+      this.#viewport.pan(here[0] - this.#drag[0], here[1] - this.#drag[1], this.size);
+      this.#drag = here;
+    }
+    if (before) this.#touches.set(event.pointerId, here);
+    // Reading values would make dragging jerk.
+    if (!this.#drag) this.#viewport.set_cursor(pixel);
+  }
+
+  /** Two fingers zoom about their middle. */
+  #pinch(id, here) {
+    const before = this.#touches.get(id);
+    const [, other] = [...this.#touches].find(([key]) => key !== id);
+    const distance = (place) => Math.hypot(place[0] - other[0], place[1] - other[1]);
+    const middle = { clientX: (here[0] + other[0]) / 2, clientY: (here[1] + other[1]) / 2 };
+    const zoom = (this.zoom * distance(here)) / Math.max(1, distance(before));
+    this.#viewport.zoom_to(zoom, this.size, ...this.#pixel_at(middle));
+    this.#pressed_at = null;
+  }
+
+  /** Neither a double click, which zooms, nor the end of a drag picks a pixel. */
   #click(event) {
     clearTimeout(this.#picking);
     const [x, y] = this.#pressed_at ?? [Infinity, Infinity];
     const dragged = Math.hypot(event.clientX - x, event.clientY - y) > CLICK_SLACK_PX;
     if (!this.#on_pick || dragged || event.detail > 1) return;
     const pixel = this.#pixel_at(event).map(Math.floor);
-    if (this.#viewport.contains(pixel)) this.#picking = setTimeout(() => this.#on_pick(...pixel), DOUBLE_CLICK_MS);
+    if (!this.#viewport.contains(pixel)) return;
+    this.#picking = setTimeout(() => {
+      this.#viewport.choose(pixel);
+      this.#on_pick(...pixel);
+    }, DOUBLE_CLICK_MS);
   }
 
   #key(event) {
@@ -218,8 +268,7 @@ export class PicturePane {
       else this.#viewport.pan(-dx * width * KEY_PAN_SHARE, -dy * height * KEY_PAN_SHARE, this.size);
     } else if (event.key === "+" || event.key === "=") this.#viewport.step(1, this.size);
     else if (event.key === "-") this.#viewport.step(-1, this.size);
-    else if (event.key === "0") this.#viewport.fit();
-    else if (event.key === "1") this.#viewport.zoom_to(1, this.size);
+    else if (event.key === "Home") this.#viewport.fit();
     else if (event.key === "Enter" && this.#on_pick && this.#viewport.cursor) this.#on_pick(...this.#viewport.cursor);
     else return;
     event.preventDefault();

@@ -1,4 +1,4 @@
-// A pixel taken apart: its stack of fragments, near to far, and what each method made of it.
+// The explanation of a pixel: its stack of fragments, near to far, and what each method made of it.
 import { el, set_children } from "./dom.js";
 import { DASH, fixed, is_number, words } from "./format.js";
 
@@ -13,7 +13,7 @@ function color_swatch(color) {
   return node;
 }
 
-/** All with the same decimals, so that they line up. */
+/** All channels with the same decimals, so that they line up. */
 const color_text = (color) =>
   color
     .map((value) =>
@@ -62,12 +62,12 @@ function heads(names) {
 const STACK_HEADS = [
   ["#", "From the front"],
   ["Depth", "0 is nearest, 1 farthest", "number"],
-  ["Colour", "Red, green and blue, 0 to 1, not premultiplied"],
+  ["Color", "Red, green and blue, 0 to 1, not premultiplied"],
   ["Alpha", undefined, "number"],
   ["Primitive", "Its number in the scene, in the order of submission", "number"],
   ["Transmittance", "What the nearer fragments let through", "number"],
-  ["Weight", "Transmittance times alpha: how much of the colour is seen", "number"],
-  ["Saturates", "Methods whose threshold is reached with this fragment"],
+  ["Weight", "Transmittance times alpha: how much of the color is seen", "number"],
+  ["Saturates", "Methods whose threshold is reached at this fragment"],
 ];
 
 function fragment_row(fragment, number, pixel) {
@@ -134,8 +134,12 @@ const METHOD_HEADS = [
   ["Value", "Red, green and blue of the picture"],
   ["Exact − value", "The exact sum minus the value", "number"],
   ["Shaded", "Fragments of this pixel that the method shaded", "number"],
-  ["Needed", "Fragments until less than its threshold is left", "number"],
-  ["Saturated at", "The fragment, counted from the front, with which less than its threshold is left", "number"],
+  ["Needed", "Fragments until less transmittance than its threshold is left", "number"],
+  [
+    "Saturated at",
+    "The fragment, counted from the front, after which less transmittance than its threshold is left",
+    "number",
+  ],
 ];
 
 function method_row(method) {
@@ -186,7 +190,7 @@ function method_table(pixel) {
   );
 }
 
-/** 1–4, 7, or 4–1, 7: three or more in a row, up or down, are a range. */
+/** 1–4, 7, or 4–1, 7: three or more consecutive numbers, up or down, form a range. */
 function ranges(numbers) {
   const parts = [];
   for (let first = 0, last; first < numbers.length; first = last + 1) {
@@ -208,25 +212,36 @@ const FACT_VALUES = {
   fragment: (value) => (value === null ? "none" : `#${value}`),
   fragments: ranges,
   samples: (value) =>
-    value.map(({ fragment, color }) => el("div", {}, color_line(color), fragment === null ? " opaque" : ` #${fragment}`)),
+    value.map(({ fragment, color }) =>
+      el("div", {}, color_line(color), fragment === null ? " opaque" : ` #${fragment}`),
+    ),
 };
 
 function explained_method(method) {
   const note = method.explanation_reason && el("p", { class: "muted" }, method.explanation_reason);
   const facts = (method.explanation ?? []).map(({ name, kind, value, text }) =>
-    el("div", {}, el("dt", {}, words(name)), el("dd", {}, FACT_VALUES[kind](value)), el("dd", { class: "muted" }, text)),
+    el(
+      "div",
+      {},
+      el("dt", {}, words(name)),
+      el("dd", {}, FACT_VALUES[kind](value)),
+      el("dd", { class: "muted" }, text),
+    ),
   );
   if (!note && facts.length === 0) return null;
   return el("section", { "data-label": method.label }, el("h4", {}, method.label), note, el("dl", {}, facts));
 }
 
 function explanations(pixel) {
-  const methods = pixel.methods.filter((method) => method.status === "ok").map(explained_method).filter(Boolean);
+  const methods = pixel.methods
+    .filter((method) => method.status === "ok")
+    .map(explained_method)
+    .filter(Boolean);
   if (methods.length === 0) return null;
   return el(
     "section",
     { class: "pixel-explained" },
-    el("h3", {}, "How the methods came to their values"),
+    el("h3", {}, "How the methods arrived at their values"),
     el("p", { class: "muted" }, "Fragments are numbered as in the first table."),
     el("div", {}, methods),
   );
@@ -253,7 +268,7 @@ export class PixelView {
   #title = el("h2", { tabindex: "-1" });
   #body = el("div", { class: "pixel-body", "aria-live": "polite" });
 
-  /** `load(x, y, signal)` gives the pixel as the service tells it. */
+  /** `load(x, y, signal)` returns the service's description of the pixel. */
   constructor(load) {
     this.#load = load;
     this.element = el(
@@ -280,18 +295,21 @@ export class PixelView {
     const key = `${x} ${y}`;
     if (!this.#known.has(key)) {
       set_children(this.#body, el("p", { class: "muted" }, "Rendering its fragments…"));
-      this.element.scrollIntoView({ block: "nearest" });
     }
     try {
       const pixel = this.#known.get(key) ?? (await this.#patient_load(x, y, signal));
       if (signal.aborted) return;
       this.#known.set(key, pixel);
-      set_children(this.#body, scroller("Fragments", stack_table(pixel)), scroller("Methods", method_table(pixel)), explanations(pixel));
+      set_children(
+        this.#body,
+        scroller("Fragments", stack_table(pixel)),
+        scroller("Methods", method_table(pixel)),
+        explanations(pixel),
+      );
     } catch (error) {
       if (signal.aborted) return;
       set_children(this.#body, el("p", { class: "notice error", role: "alert" }, error.message));
     }
-    this.element.scrollIntoView({ block: "nearest" });
   }
 
   close() {
@@ -300,7 +318,7 @@ export class PixelView {
     this.#return_to?.focus({ preventScroll: true });
   }
 
-  /** The service takes one pixel apart at a time and says when to come again. */
+  /** The service explains one pixel at a time and says when to retry. */
   async #patient_load(x, y, signal) {
     for (let tries = 1; ; ++tries) {
       try {

@@ -1,8 +1,12 @@
-// A report at #/reports/{id}: its progress while it is made, then the report itself.
-import { delete_report, follow, get_methods, get_metrics, get_pixel, get_report, report_path } from "./api.js";
+// A report at #/reports/{id}: its progress while it is rendered, then the report itself.
+import { AddressWriter } from "./address.js";
+import { delete_report, follow, get_columns, get_methods, get_metrics, get_pixel, get_report } from "./api.js";
 import { el, set_children } from "./dom.js";
-import { error_text, report_view, scene_text } from "./report_view.js";
-import { keep_draft } from "./spec_model.js";
+import { when } from "./format.js";
+import { delete_button, edit_button, report_actions, run_again, run_again_button } from "./report_actions.js";
+import { scene_text } from "./report_head.js";
+import { error_text, report_view } from "./report_view.js";
+import { show_waiting } from "./waiting_view.js";
 
 const UNSETTLED = ["queued", "running"];
 
@@ -10,150 +14,89 @@ function message(kind, text) {
   return el("p", { class: `notice ${kind}`, role: kind === "error" ? "alert" : "status" }, text);
 }
 
-function use_again(report) {
-  return el(
-    "button",
-    {
-      type: "button",
-      onclick: () => {
-        keep_draft(report.spec);
-        location.hash = "#/";
-      },
-    },
-    "Use this spec again",
-  );
-}
-
-function delete_button(main, report, text, question) {
-  return el(
-    "button",
-    {
-      type: "button",
-      class: "danger",
-      onclick: async () => {
-        if (!window.confirm(question)) return;
-        try {
-          await delete_report(report.id);
-          location.hash = "#/reports";
-        } catch (error) {
-          main.prepend(message("error", error.message));
-        }
-      },
-    },
-    text,
-  );
-}
-
-function actions(main, report) {
-  const path = report_path(report.id);
-  return [
-    use_again(report),
-    el("a", { class: "button", href: path }, "report.json"),
-    el("a", { class: "button", href: `${path}/report.html` }, "report.html"),
-    el("a", { class: "button", href: `${path}/junit.xml` }, "junit.xml"),
-    delete_button(
-      main,
-      report,
-      "Delete",
-      `Delete the report “${report.spec?.title || report.id}”? This cannot be undone.`,
-    ),
-  ];
-}
-
-/** How a comparison ended that was not done. */
+/** How a comparison ended that was not completed. */
 function ended_text({ status, error }) {
   return status === "cancelled" ? "This comparison was cancelled." : `Rendering failed: ${error_text(error)}`;
 }
 
-async function show_settled(main, report) {
+async function show_settled(main, signal, report, descriptions, { query, on_query }) {
   document.title = `${report.spec?.title || "Report"} – Sheer`;
-  // What a job that ended early has finished is shown as well.
+  // The finished parts of a job that ended early are shown as well.
   const is_done = report.status === "done";
   if (is_done || report.runs?.length > 0) {
-    // Without the descriptions the report is there all the same, only with fewer captions.
-    const [methods, metrics] = await Promise.all([get_methods().catch(() => []), get_metrics().catch(() => [])]);
+    const [methods, metrics, columns] = await descriptions;
+    if (signal.aborted) return;
+    const address = new AddressWriter(signal);
+    const fail = (error) => main.prepend(message("error", error.message));
+    const view = report_view(report, {
+      picture_url: (image) => image.url,
+      methods,
+      metrics: metrics ?? [],
+      columns: columns ?? [],
+      actions: report_actions(report, () => address.href, fail),
+      on_rounds: (rounds) => run_again({ ...report.spec, timing: { ...report.spec.timing, rounds } }).catch(fail),
+      load_pixel: (place, signal) => get_pixel(report.id, place, signal),
+      query,
+      on_query: (shown, is_step) => address.write(shown, is_step),
+    });
+    on_query((next) => view.show(next));
     set_children(
       main,
+      metrics && columns
+        ? null
+        : message("error", "The descriptions of the columns could not be loaded: reload to see all tables."),
       is_done || report.error ? null : message("info", ended_text(report)),
-      report_view(report, {
-        picture_url: (image) => image.url,
-        methods,
-        metrics,
-        actions: actions(main, report),
-        load_pixel: (place, signal) => get_pixel(report.id, place, signal),
-      }),
+      view.element,
     );
     return;
   }
-  set_children(
-    main,
+  set_children(main, ended_page(main, report));
+}
+
+/** A report of which nothing was finished: what happened, what was asked for, what can be done. */
+function ended_page(main, report) {
+  const fail = (error) => main.prepend(message("error", error.message));
+  const was_cancelled = report.status === "cancelled";
+  return el(
+    "section",
+    { class: "plain-page" },
     el("h1", {}, report.spec?.title || "Untitled comparison"),
-    message(report.status === "cancelled" ? "info" : "error", ended_text(report)),
+    el("p", { class: "muted" }, [scene_text(report.spec?.scene), when(report.finished_at)].filter(Boolean).join(" · ")),
+    message(was_cancelled ? "info" : "error", ended_text(report)),
+    el(
+      "p",
+      {},
+      was_cancelled
+        ? "Nothing was finished before that. Run it again, or change it first."
+        : "The message tells what to change. If it tells of the service, run the comparison again.",
+    ),
     el(
       "div",
       { class: "actions" },
-      use_again(report),
-      delete_button(main, report, "Delete", "Delete this report? This cannot be undone."),
+      run_again_button(report, fail),
+      edit_button(report),
+      delete_button(report, fail),
+      el("a", { class: "button", href: "#/reports" }, "All reports"),
     ),
-  );
-}
-
-function show_progress(main, report, signal) {
-  const bar = el("progress", { max: "1", value: report.progress ?? 0, "aria-label": "Progress" });
-  const stage = el(
-    "p",
-    { class: "stage-text", role: "status" },
-    report.status === "queued" ? "Waiting for a worker" : "Rendering",
-  );
-  const percent = el("span", { class: "percent" });
-  const update = ({ progress, stage: text, status }) => {
-    if (typeof progress === "number") {
-      bar.value = progress;
-      percent.textContent = `${Math.round(progress * 100)} %`;
-    }
-    const said = text || (status === "queued" ? "Waiting for a worker" : "Rendering");
-    if (said !== stage.textContent) stage.textContent = said;
-  };
-  update(report);
-  const cancel = el(
-    "button",
-    {
-      type: "button",
-      class: "danger",
-      onclick: async () => {
-        cancel.disabled = true;
-        try {
-          await delete_report(report.id);
-        } catch (error) {
-          cancel.disabled = false;
-          stage.textContent = error.message;
-        }
-      },
-    },
-    "Cancel",
-  );
-  const methods = (report.spec?.methods ?? []).map((method) => method.label ?? method.id ?? method).join(", ");
-  document.title = "Rendering – Sheer";
-  set_children(
-    main,
     el(
-      "section",
-      { class: "progress-card", "aria-label": "Progress" },
-      el("h1", {}, report.spec?.title || "Untitled comparison"),
-      el("p", { class: "muted" }, [scene_text(report.spec?.scene), methods].filter(Boolean).join(" — ")),
-      el("div", { class: "progress-line" }, bar, percent),
-      stage,
-      el("div", { class: "actions" }, cancel),
+      "details",
+      {},
+      el("summary", {}, "Its spec"),
+      el("pre", { tabindex: "0", "aria-label": "Spec as JSON" }, JSON.stringify(report.spec, null, 2)),
     ),
   );
-  const stop = follow(report.id, update, () => {
-    if (!signal.aborted) show_report(main, signal, report.id);
-  });
-  signal.addEventListener("abort", stop);
 }
 
-export async function show_report(main, signal, id) {
+/** Without the descriptions a report is still shown, but with fewer captions and without differences. */
+function load_descriptions() {
+  return Promise.all([get_methods().catch(() => []), get_metrics().catch(() => null), get_columns().catch(() => null)]);
+}
+
+/** `context`: {parts: [id], query, on_query}, see app.js. */
+export async function show_report(main, signal, context) {
+  const [id] = context.parts;
   if (!main.firstChild) set_children(main, message("info", "Loading the report…"));
+  const descriptions = load_descriptions(); // while the report is loaded
   let report;
   try {
     report = await get_report(id, signal);
@@ -162,13 +105,28 @@ export async function show_report(main, signal, id) {
     document.title = "Sheer";
     set_children(
       main,
-      el("h1", {}, error.status === 404 ? "No such report" : "The report could not be loaded"),
-      message("error", error.status === 404 ? "It may have been deleted." : error.message),
-      el("p", {}, el("a", { href: "#/reports" }, "All reports")),
+      el(
+        "section",
+        { class: "plain-page" },
+        el("h1", {}, error.status === 404 ? "No such report" : "The report could not be loaded"),
+        message("error", error.status === 404 ? "It may have been deleted." : error.message),
+        el(
+          "div",
+          { class: "actions" },
+          error.status === 404
+            ? null
+            : el("button", { type: "button", onclick: () => show_report(main, signal, context) }, "Try again"),
+          el("a", { class: "button", href: "#/reports" }, "All reports"),
+          el("a", { class: "button", href: "#/" }, "Start"),
+        ),
+      ),
     );
     return;
   }
   if (signal.aborted) return;
-  if (UNSETTLED.includes(report.status)) show_progress(main, report, signal);
-  else await show_settled(main, report);
+  if (UNSETTLED.includes(report.status))
+    show_waiting(main, signal, report, () => {
+      if (!signal.aborted) show_report(main, signal, context);
+    });
+  else await show_settled(main, signal, report, descriptions, context);
 }

@@ -1,23 +1,19 @@
-// The tables of a run: fragments, times, and differences from the reference. One row a result, in the order of the spec.
+// The tables of a run: fragments, times, and differences from the reference. One row per result, in the order of the
+// spec.
 import { append, el } from "./dom.js";
 import {
   best_results,
-  column_title,
+  columns_of,
   decimals_of,
-  DIFFERENCE_COLUMNS,
+  difference_columns,
   fastest_results,
-  FRAGMENT_COLUMNS,
   missing_reason,
-  SORT_COLUMN,
-  SORTED_SPEEDUP_COLUMN,
-  SPEEDUP_COLUMN,
-  TIMING_COLUMNS,
   value_at,
 } from "./columns.js";
 import { column_decimals, DASH, fixed, integer, is_number, short_value } from "./format.js";
 import { axis_end, timing_samples, timing_strip } from "./timing_strip.js";
 
-/** What a method is called and what it was given. */
+/** The label of a method and its parameters. */
 export function method_cell(result, context) {
   const info = context.methods.find((method) => method.id === result.method);
   const parameters = Object.entries(result.parameters ?? {});
@@ -94,7 +90,7 @@ function interval_text(ci95) {
   return Array.isArray(ci95) && ci95.every(is_number) ? ci95.map((bound) => fixed(bound, 2)).join("–") : null;
 }
 
-/** `judged`: the result's speed-up of that column; the baseline's to itself needs no verdict. */
+/** `judged`: the result's speed-up of that column; that of the baseline over itself needs no verdict. */
 function speedup_cell(result, column, { judged, decimals, best, is_baseline }) {
   const cell = number_cell(result, column, decimals, best);
   const { ci95, verdict, reason } = judged ?? {};
@@ -110,16 +106,16 @@ function speedup_cell(result, column, { judged, decimals, best, is_baseline }) {
   ]);
 }
 
-function head_cell(column, metrics) {
+function head_cell(column) {
   return el(
     "th",
-    { scope: "col", class: "number", title: column_title(column, metrics) },
+    { scope: "col", class: "number", title: column.title },
     column.head,
     column.unit ? el("span", { class: "unit" }, column.unit) : null,
   );
 }
 
-/** Fills the row of a result that has no values with why. */
+/** Fills the row of a result without values with the reason. */
 function reason_cell(result, span) {
   return el(
     "td",
@@ -134,7 +130,7 @@ function scroll_box(label, table) {
   return el("div", { class: "table-box", tabindex: "0", role: "region", "aria-label": label }, table);
 }
 
-/** How many rounds were timed, and how far the baseline is from itself. */
+/** How many rounds were timed, and by how much the baseline differs from itself. */
 function trust_text(run) {
   const { rounds, noise_floor } = run;
   const texts = [];
@@ -153,31 +149,30 @@ function trust_text(run) {
   return texts.join(" · ");
 }
 
-/** How the speed-ups are to be read. */
+/** How to read the speed-ups. */
 function reading_text(with_sort) {
   const paired =
     "A speed-up is the median of the ratios to the baseline round by round, not the ratio of the medians. A time is " +
-    "marked as the best where it is resolved: its interval excludes 1 and it lies outside the noise floor.";
+    "marked as the best if it is resolved: its interval excludes 1 and it lies outside the noise floor.";
   const sort =
-    " Frames are drawn in an order made before; Sort is what making it anew takes, and With sort adds it to each frame.";
+    " Frames are drawn in a precomputed order; Sort is the time to compute it again, and With sort adds that to each frame.";
   return with_sort ? paired + sort : paired;
 }
 
-/** `context`: {methods, metrics, baseline, show_pixel(x, y, result)}. */
+/** `context`: {methods, metrics, columns, baseline, show_pixel(x, y, result)}. */
 export function timing_table(run, context) {
   const { results } = run;
-  const columns = TIMING_COLUMNS.filter((column) => results.some((result) => is_number(value_at(result, column.path))));
+  const has_values = (column) => results.some((result) => is_number(value_at(result, column.path)));
+  const columns = columns_of(context.columns, "times").filter(has_values);
   const decimals = column_decimals(results.map((result) => value_at(result, "timing.median")));
   const decimals_in = (column) => (column.digits ? decimals_of(results, column) : decimals);
   const with_speedup = results.some((result) => result.speedup);
-  const with_sort = results.some((result) => is_number(value_at(result, SORT_COLUMN.path)));
-  const tail = [
-    with_speedup ? SPEEDUP_COLUMN : null,
-    ...(with_sort ? [SORT_COLUMN, SORTED_SPEEDUP_COLUMN] : []),
-  ].filter(Boolean);
+  const sorting = columns_of(context.columns, "sorting");
+  const with_sort = results.some((result) => result.timing?.sort);
+  const tail = [...(with_speedup ? columns_of(context.columns, "speedups") : []), ...(with_sort ? sorting : [])];
   const tail_cell = (result, column) => {
     const decimals = decimals_of(results, column);
-    if (column === SORT_COLUMN) return number_cell(result, column, decimals, new Set());
+    if (!column.is_speedup) return number_cell(result, column, decimals, new Set());
     return speedup_cell(result, column, {
       judged: value_at(result, column.path.split(".")[0]),
       decimals,
@@ -236,8 +231,8 @@ export function timing_table(run, context) {
             "Frames",
             el("span", { class: "axis-text" }, el("span", {}, "0"), el("span", {}, `${end} ms`)),
           ),
-          columns.map((column) => head_cell(column, [])),
-          tail.map((column) => head_cell(column, [])),
+          columns.map(head_cell),
+          tail.map(head_cell),
         ),
       ),
       el("tbody", {}, body),
@@ -245,18 +240,19 @@ export function timing_table(run, context) {
   );
 }
 
-/** Null where the report has no counts. */
+/** Null if the report has no counts. */
 export function fragment_table(results, context) {
   if (!results.some((result) => result.fragments)) return null;
-  const best = new Map(FRAGMENT_COLUMNS.map((column) => [column, best_results(results, column)]));
+  const columns = columns_of(context.columns, "fragments");
+  const best = new Map(columns.map((column) => [column, best_results(results, column)]));
   const body = results.map((result) =>
     el(
       "tr",
       result.fragments ? { "data-label": result.label } : { class: "no-result" },
       method_cell(result, context),
       result.fragments
-        ? FRAGMENT_COLUMNS.map((column) => number_cell(result, column, decimals_of(results, column), best.get(column)))
-        : reason_cell(result, FRAGMENT_COLUMNS.length),
+        ? columns.map((column) => number_cell(result, column, decimals_of(results, column), best.get(column)))
+        : reason_cell(result, columns.length),
     ),
   );
   return scroll_box(
@@ -265,23 +261,14 @@ export function fragment_table(results, context) {
       "table",
       { class: "results fragments" },
       el("caption", {}, "Fragments", el("span", { class: "muted" }, " counted in frames that are not timed")),
-      el(
-        "thead",
-        {},
-        el(
-          "tr",
-          {},
-          el("th", { scope: "col" }, "Method"),
-          FRAGMENT_COLUMNS.map((column) => head_cell(column, [])),
-        ),
-      ),
+      el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Method"), columns.map(head_cell))),
       el("tbody", {}, body),
     ),
   );
 }
 
 /** What the image format alone costs: the reference rounded as the methods' pictures are. Older reports do not have it. */
-function rounded_row(rounded, results, context) {
+function rounded_row(rounded, columns, results, context) {
   if (!rounded) return null;
   const result = { status: "ok", label: rounded.label, metrics: rounded.metrics };
   return el(
@@ -293,19 +280,22 @@ function rounded_row(rounded, results, context) {
       el("span", { class: "label" }, rounded.label),
       el("span", { class: "caption" }, "what the image format alone costs"),
     ),
-    DIFFERENCE_COLUMNS.map((column) => {
+    columns.map((column) => {
       const cell = column.pixel
         ? pixel_cell(result, column, context)
         : number_cell(result, column, decimals_of([...results, result], column), new Set());
-      // It is no method: it takes no part in what the columns compare.
+      // It is not a method, so the columns do not compare it.
       delete cell.dataset.path;
       return cell;
     }),
   );
 }
 
+/** Null without descriptions of the metrics. */
 export function difference_table(results, context, rounded) {
-  const best = new Map(DIFFERENCE_COLUMNS.map((column) => [column, best_results(results, column)]));
+  const columns = difference_columns(context.metrics);
+  if (columns.length === 0) return null;
+  const best = new Map(columns.map((column) => [column, best_results(results, column)]));
   const body = results.map((result) => {
     const heading = method_cell(result, context);
     if (result.status !== "ok" || !result.metrics) {
@@ -315,22 +305,22 @@ export function difference_table(results, context, rounded) {
         { class: "no-result" },
         heading,
         result.status === "ok"
-          ? el("td", { class: "reason", colspan: DIFFERENCE_COLUMNS.length }, why.reason)
-          : reason_cell(result, DIFFERENCE_COLUMNS.length),
+          ? el("td", { class: "reason", colspan: columns.length }, why.reason)
+          : reason_cell(result, columns.length),
       );
     }
     return el(
       "tr",
       { "data-label": result.label },
       heading,
-      DIFFERENCE_COLUMNS.map((column) =>
+      columns.map((column) =>
         column.pixel
           ? pixel_cell(result, column, context)
           : number_cell(result, column, decimals_of(results, column), best.get(column)),
       ),
     );
   });
-  const last = rounded_row(rounded, results, context);
+  const last = rounded_row(rounded, columns, results, context);
   if (last) body.push(last);
   return scroll_box(
     "Differences from the reference",
@@ -338,16 +328,7 @@ export function difference_table(results, context, rounded) {
       "table",
       { class: "results differences" },
       el("caption", {}, "Difference from the reference"),
-      el(
-        "thead",
-        {},
-        el(
-          "tr",
-          {},
-          el("th", { scope: "col" }, "Method"),
-          DIFFERENCE_COLUMNS.map((column) => head_cell(column, context.metrics)),
-        ),
-      ),
+      el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Method"), columns.map(head_cell))),
       el("tbody", {}, body),
     ),
   );

@@ -1,7 +1,6 @@
 // The form of a spec: scene, image, methods, reference, timing and checks, made from the service's self-description.
 import { el, select, set_children, unique_id } from "./dom.js";
 import { field_frame, fields_of, new_entry } from "./param_form.js";
-import { rounds_warning } from "./rounds.js";
 import { pointer_of, same_id } from "./spec_model.js";
 import { suite_note } from "./suite_chooser.js";
 import { SweepForm } from "./sweep_form.js";
@@ -11,18 +10,20 @@ export class SpecForm {
   #fields;
   #methods;
   #scenes;
+  #rounds_needed;
   #list = el("ol", { class: "method-list" });
   #baseline_place = el("div", { class: "stacked" });
   #checks = el("ol", { class: "check-list" });
   #sweep;
-  #left_scenes = new Map(); // by type, to come back to
+  #left_scenes = new Map(); // by type, to be restored
   #rounds_note = el("p", { class: "warning-text", role: "status" });
 
-  constructor(model, { fields, methods, scenes }) {
+  constructor(model, { fields, methods, scenes, rounds_needed }) {
     this.#model = model;
     this.#fields = fields;
     this.#methods = methods;
     this.#scenes = scenes;
+    this.#rounds_needed = rounds_needed; // for 1, 2, 3 and more methods
     this.element = el("form", {
       class: "spec-form",
       novalidate: true,
@@ -42,7 +43,7 @@ export class SpecForm {
     return this.#fields.find((field) => field.name === name);
   }
 
-  /** Everything anew, after the spec was exchanged. */
+  /** Draws everything again after the spec was replaced. */
   draw() {
     this.#left_scenes.clear();
     this.#sweep = new SweepForm(this.#model, {
@@ -69,7 +70,7 @@ export class SpecForm {
     set_children(this.element, this.#title_section(), el("div", { class: "columns" }, left, right));
   }
 
-  /** Labels of the methods, as the service will number them. */
+  /** Labels of the methods, numbered as by the service. */
   get #labels() {
     const taken = new Set();
     const specs = this.#method_specs;
@@ -117,7 +118,7 @@ export class SpecForm {
     this.element.querySelector(".title-card").replaceWith(this.#title_section());
   }
 
-  /** What went with the ready spec that this one was, and how to have it back. */
+  /** What was removed together with the ready-made spec, and a button to restore it. */
   #left_note() {
     const { left } = this.#model;
     if (!left) return null;
@@ -133,7 +134,7 @@ export class SpecForm {
     return el(
       "div",
       { class: "left-note", role: "status" },
-      `This is another comparison now, so ${what} of the ready one went. `,
+      `This is now a different comparison, so ${what} of the ready-made one went. `,
       el("button", { type: "button", class: "link", onclick: put_back }, "Put back"),
     );
   }
@@ -181,7 +182,7 @@ export class SpecForm {
     return this.#section("Scene", "/scene", frame, info ? fields_of(info.parameters, ["scene"], this.#model) : null);
   }
 
-  /** A picture of each scene, to choose by. `chosen` may be missing. */
+  /** A picture of each scene to choose from. `chosen` may be missing. */
   #scene_pictures(chosen) {
     const button = (scene) =>
       el(
@@ -199,7 +200,7 @@ export class SpecForm {
     return el("div", { class: "scene-pictures", role: "group", "aria-label": "Scenes" }, ...this.#scenes.map(button));
   }
 
-  /** Another scene has parameters, shading and texture of its own; what the one before had comes back with it. */
+  /** Each scene has its own parameters, shading and texture; they are restored when it is chosen again. */
   #choose_scene(type) {
     const info = this.#scenes.find((scene) => scene.id === type);
     const old = this.#model.get(["scene"]);
@@ -207,7 +208,7 @@ export class SpecForm {
     if (typeof old?.type === "string") this.#left_scenes.set(old.type.toLowerCase(), old);
     this.#model.set(["scene"], this.#left_scenes.get(type) ?? { type, ...new_entry(info.parameters) });
     if (this.#model.get(["suite"]) !== undefined) {
-      this.#model.set(["suite"], undefined); // its figures are of the scene before
+      this.#model.set(["suite"], undefined); // its figures belong to the previous scene
       this.#draw_title();
     }
     const section = this.element.querySelector("[data-pointer='/scene']");
@@ -230,7 +231,10 @@ export class SpecForm {
   #show_rounds() {
     const { fields } = this.#field("timing");
     const rounds = this.#model.get(["timing", "rounds"]) ?? fields.find(({ name }) => name === "rounds").default;
-    const text = rounds_warning(rounds, this.#method_specs.length);
+    const methods = this.#method_specs.length;
+    const needed = this.#rounds_needed[Math.max(methods, 1) - 1];
+    const compared = methods > 1 ? `${methods} methods` : "methods";
+    const text = rounds < needed ? `Too few rounds: ${rounds}, needs ${needed} to tell ${compared} apart.` : "";
     if (this.#rounds_note.textContent !== text) this.#rounds_note.textContent = text;
   }
 
@@ -238,27 +242,31 @@ export class SpecForm {
     this.#draw_methods();
     const add = this.#methods.map((method) =>
       el(
-        "button",
-        {
-          type: "button",
-          class: "small",
-          title: method.summary,
-          "aria-label": `Add ${method.name}`,
-          onclick: () => {
-            this.#put_methods([...(this.#model.get(["methods"]) ?? []), method.id]);
-            const card = this.#list.lastElementChild;
-            card.querySelector("details")?.setAttribute("open", "");
-            card.querySelector("input").focus();
+        "li",
+        {},
+        el(
+          "button",
+          {
+            type: "button",
+            class: "small",
+            "aria-label": `Add ${method.name}`,
+            onclick: () => {
+              this.#put_methods([...(this.#model.get(["methods"]) ?? []), method.id]);
+              const card = this.#list.lastElementChild;
+              card.querySelector("details")?.setAttribute("open", "");
+              card.querySelector("input").focus();
+            },
           },
-        },
-        `+ ${method.name}`,
+          `+ ${method.name}`,
+        ),
+        el("p", { class: "hint" }, method.summary),
       ),
     );
     return this.#section(
       "Methods",
       "/methods",
       this.#list,
-      el("div", { class: "add-row", role: "group", "aria-label": "Add a method" }, add),
+      el("ul", { class: "add-methods", "aria-label": "Add a method" }, add),
     );
   }
 
@@ -276,7 +284,7 @@ export class SpecForm {
       this.#method_specs.map((method, index) => this.#method_card(method, index)),
     );
     if (this.#list.children.length === 0)
-      set_children(this.#list, el("li", { class: "empty muted" }, "No method yet."));
+      set_children(this.#list, el("li", { class: "empty muted" }, "No methods yet."));
   }
 
   #method_card(method, index) {
@@ -325,7 +333,7 @@ export class SpecForm {
       el(
         "div",
         { class: "method-head" },
-        el("strong", { title: info?.summary }, name),
+        el("strong", {}, name),
         info?.kind ? el("span", { class: "muted kind" }, info.kind) : null,
         el(
           "span",
@@ -335,6 +343,7 @@ export class SpecForm {
           button("✕", "Remove", () => this.#put_methods(methods().toSpliced(index, 1))),
         ),
       ),
+      info ? el("p", { class: "hint" }, info.summary) : null,
       el(
         "div",
         { class: "fields" },
@@ -358,9 +367,10 @@ export class SpecForm {
   }
 
   #reference_section() {
+    const described = this.#field("reference");
     const place = el("div", { class: "stacked" });
     const draw = () => {
-      const reference = method_object(this.#model.get(["reference"]) ?? "exact");
+      const reference = method_object(this.#model.get(["reference"]) ?? described.default);
       const info = this.#methods.find((one) => same_id(one.id, reference.id));
       const id = unique_id("field");
       const choices = this.#methods.map((one) => [one.id, one.name]);
@@ -369,7 +379,7 @@ export class SpecForm {
         {
           id,
           onchange: () => {
-            this.#model.set(["reference"], input.value === "exact" ? undefined : input.value);
+            this.#model.set(["reference"], input.value === described.default ? undefined : input.value);
             draw();
             place.querySelector("select").focus();
           },
@@ -379,12 +389,7 @@ export class SpecForm {
       );
       set_children(
         place,
-        field_frame(
-          { name: "reference", kind: "choice", summary: "differences are measured against it" },
-          ["reference"],
-          input,
-          { for_id: id },
-        ),
+        field_frame({ ...described, kind: "choice" }, ["reference"], input, { for_id: id }),
         info ? this.#parameters(info, ["reference"]) : null,
       );
     };
@@ -396,7 +401,7 @@ export class SpecForm {
   #draw_baseline() {
     const id = unique_id("field");
     const current = this.#model.get(["baseline"]) ?? "";
-    const choices = [["", "b2f, else the first method"], ...this.#labels.map((label) => [label, label])];
+    const choices = [["", "default"], ...this.#labels.map((label) => [label, label])];
     if (current !== "" && !this.#labels.includes(current)) choices.push([current, current]);
     const input = select(
       { id, onchange: () => this.#model.set(["baseline"], input.value || undefined) },
@@ -405,7 +410,7 @@ export class SpecForm {
     );
     set_children(
       this.#baseline_place,
-      field_frame({ name: "baseline", kind: "choice", summary: "speed-ups are relative to it" }, ["baseline"], input, {
+      field_frame({ ...this.#field("baseline"), kind: "choice" }, ["baseline"], input, {
         for_id: id,
       }),
     );
@@ -430,7 +435,7 @@ export class SpecForm {
     return this.#section(
       "Checks",
       "/checks",
-      el("p", { class: "hint" }, "What must hold for the report to pass."),
+      el("p", { class: "hint" }, this.#field("checks").summary),
       this.#checks,
       el("div", { class: "add-row" }, add),
     );

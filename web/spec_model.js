@@ -1,10 +1,11 @@
-// The spec that is being written: plain JSON that the form and the JSON text both edit. Fields left at their default
-// are left out, so that the text stays as short as what a person would write.
+// The spec that is being edited: plain JSON that the form and the JSON text both edit. Fields with their default value
+// are left out, so that the text is as short as a person would write it.
 
 const DRAFT_KEY = "sheer.draft";
 const ORIGIN_KEY = "sheer.draft.origin";
+const EDITED_KEY = "sheer.draft.edited";
 
-/** The parts of a spec that a title and the limits of checks are about. */
+/** The parts of a spec to which a title and the limits of checks apply. */
 const SUBJECT = ["image", "scene", "methods", "reference", "sweep"];
 
 /** RFC 6901 pointer of a path of keys and indices. */
@@ -12,10 +13,10 @@ export function pointer_of(path) {
   return path.map((part) => `/${String(part).replaceAll("~", "~0").replaceAll("/", "~1")}`).join("");
 }
 
-/** Ids are matched without regard to case. */
+/** Ids are case-insensitive. */
 export const same_id = (a, b) => String(a).toLowerCase() === String(b).toLowerCase();
 
-/** Whether a plain text at this path stands for an object with that id: a method or the reference. */
+/** Whether a plain string at this path means an object with that id: a method or the reference. */
 function is_method_place(path) {
   return (path.length === 2 && path[0] === "methods") || (path.length === 1 && path[0] === "reference");
 }
@@ -24,18 +25,18 @@ const is_object = (value) => typeof value === "object" && value !== null;
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
-/** Whether two checks ask for the same, written out or not. */
+/** Whether two checks are equivalent, whether or not null fields are written out. */
 function same_check(a, b) {
   return ["metric", "method", "min", "max"].every((name) => (a?.[name] ?? null) === (b?.[name] ?? null));
 }
 
 /**
- * Events: "edit" after a change by the form, "replace" after the whole spec was exchanged, "leave" after a change that
- * made of a ready spec another one: title and checks that came with it are then in `left`, no longer in the spec.
+ * Events: "edit" after a change by the form; "replace" after the whole spec was replaced; "leave" after a change that
+ * made a ready-made spec a different one: its title and checks are then in `left` and no longer in the spec.
  */
 export class SpecModel extends EventTarget {
   #spec;
-  #origin; // the ready spec that this one began as; null once it is another one
+  #origin; // the ready-made spec that this one began as; null once it is a different one
   #left = null;
 
   constructor(spec, origin = null) {
@@ -52,7 +53,7 @@ export class SpecModel extends EventTarget {
     return this.#origin;
   }
 
-  /** {title, checks} that went with the ready spec, or null. */
+  /** {title, checks} that were removed with the ready-made spec, or null. */
   get left() {
     return this.#left;
   }
@@ -63,13 +64,13 @@ export class SpecModel extends EventTarget {
     this.dispatchEvent(new Event("replace"));
   }
 
-  /** Begins with a ready spec. */
+  /** Begins with a ready-made spec. */
   start_from(spec) {
     this.#origin = structuredClone(spec);
     this.replace(spec);
   }
 
-  /** Takes back title and checks that went; a title that was given since stays. */
+  /** Restores the title and checks that were removed; a title that was entered since then stays. */
   put_back() {
     const { title, checks } = this.#left;
     this.#left = null;
@@ -77,7 +78,7 @@ export class SpecModel extends EventTarget {
     if (checks.length > 0) this.set(["checks"], [...checks, ...(this.get(["checks"]) ?? [])]);
   }
 
-  /** The value at a path of keys and indices, undefined where there is none. */
+  /** The value at a path of keys and indices, undefined if there is none. */
   get(path) {
     let value = this.#spec;
     for (let depth = 0; depth < path.length; ++depth) {
@@ -88,7 +89,7 @@ export class SpecModel extends EventTarget {
     return value;
   }
 
-  /** Sets a value, or with undefined takes it out. */
+  /** Sets a value, or removes it if it is undefined. */
   set(path, value) {
     const before = this.get(path.slice(0, 1));
     this.#spec = this.#changed(is_object(this.#spec) ? this.#spec : {}, [], path, value);
@@ -113,7 +114,7 @@ export class SpecModel extends EventTarget {
     if (this.#spec.checks.length === 0) delete this.#spec.checks;
   }
 
-  /** A copy of `owner`, which lies at `done`, in which the rest of `path` holds `value`. */
+  /** A copy of `owner`, which is at `done`, in which the rest of `path` holds `value`. */
   #changed(owner, done, path, value) {
     const key = path[done.length];
     const here = [...done, key];
@@ -132,13 +133,17 @@ export class SpecModel extends EventTarget {
   }
 }
 
-/** Keeps a spec, and the ready one that it began as, for the next visit of the form in this browser tab. */
-export function keep_draft(spec, origin = null) {
+/**
+ * Keeps a spec, and the ready-made one that it began as, for the next visit of the form in this browser tab. `is_edited`: the
+ * user has changed it and not run it since.
+ */
+export function keep_draft(spec, origin = null, is_edited = false) {
   try {
     sessionStorage.setItem(DRAFT_KEY, JSON.stringify(spec));
     sessionStorage.setItem(ORIGIN_KEY, JSON.stringify(origin));
+    sessionStorage.setItem(EDITED_KEY, JSON.stringify(is_edited));
   } catch {
-    // Without storage the draft lives as long as the form.
+    // Without storage, the draft lives only as long as the form.
   }
 }
 
@@ -150,11 +155,21 @@ function load(key) {
   }
 }
 
-/** The model of the draft, else of the first of the `ready` specs. */
+/** Whether the user has changed the draft and not run it since. */
+export function draft_is_edited() {
+  return load(EDITED_KEY) === true;
+}
+
+/** Whether another spec may replace the draft: asks if it has edits. */
+export function may_replace_draft() {
+  return !draft_is_edited() || window.confirm("Replace the comparison that you have written?");
+}
+
+/** The model of the draft, otherwise of the first of the `ready` specs. */
 export function first_model(ready, empty) {
   const draft = load(DRAFT_KEY);
   if (!draft) return new SpecModel(ready[0] ?? empty, ready[0] ?? null);
-  // The spec of a report may be a ready one.
+  // The spec of a report may be a ready-made one.
   const origin = load(ORIGIN_KEY) ?? ready.find(({ title }) => title && title === draft.title) ?? null;
   return new SpecModel(draft, origin);
 }

@@ -1,8 +1,9 @@
 // The self-contained report file: everything it shows is in the page.
+import { AddressWriter, split_hash } from "./address.js";
 import { el } from "./dom.js";
 import { report_view } from "./report_view.js";
 
-const { report, pictures, methods, metrics } = JSON.parse(document.getElementById("sheer-report").textContent);
+const { report, pictures, methods, metrics, columns } = JSON.parse(document.getElementById("sheer-report").textContent);
 
 function download_json() {
   const blob = new Blob([JSON.stringify(report, null, 2)], { type: "application/json" });
@@ -11,11 +12,15 @@ function download_json() {
   URL.revokeObjectURL(link.href);
 }
 
-document.getElementById("main").append(
-  report_view(report, {
-    picture_url: (image) => pictures[image.sha256] ?? null,
-    methods,
-    metrics,
-    actions: [el("button", { type: "button", onclick: download_json }, "Save report.json")],
-  }),
-);
+const address = new AddressWriter();
+const view = report_view(report, {
+  picture_url: (image) => pictures[image.sha256] ?? null,
+  methods,
+  metrics,
+  columns,
+  actions: [el("button", { type: "button", onclick: download_json }, "Save report.json")],
+  query: split_hash(location.hash).query,
+  on_query: (shown, is_step) => address.write(shown, is_step),
+});
+window.addEventListener("hashchange", () => view.show(split_hash(location.hash).query));
+document.getElementById("main").append(view.element);

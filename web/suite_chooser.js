@@ -1,4 +1,4 @@
-// The choice of a published table to repeat, at its own size or smaller.
+// The choice of a published table to repeat, at the original size or smaller.
 import { el, select } from "./dom.js";
 
 const SCALES = [
@@ -8,13 +8,13 @@ const SCALES = [
   ["0.125", "1/8"],
 ];
 
-/** A suite's spec with the sides of its image times `scale`; scene and textures stay as they are, so overdraw does too. */
+/** A suite's spec with the sides of its image times `scale`; scene, textures and so overdraw stay the same. */
 export function scaled_spec(spec, scale) {
   const side = (length) => Math.max(1, Math.round(length * scale));
   return { ...spec, image: { ...spec.image, width: side(spec.image.width), height: side(spec.image.height) } };
 }
 
-/** Null where the service has no suites. `on_spec(spec)` hears of what was chosen. */
+/** Null if the service has no suites. `on_spec(spec)` is called with the chosen spec. */
 export function suite_chooser(suites, on_spec) {
   if (suites.length === 0) return null;
   const name = (suite) => `${suite.id.replace(/^paper-table-/, "Table ")}: ${suite.title}`;
@@ -46,7 +46,7 @@ export function suite_chooser(suites, on_spec) {
   );
 }
 
-/** The published figures stay with a spec while it is changed, until they are let go. Null where it has none. */
+/** The published figures stay with a spec while it is edited, until they are removed. Null if it has none. */
 export function suite_note(model) {
   const suite = model.get(["suite"]);
   if (!suite) return null;
@@ -57,7 +57,7 @@ export function suite_note(model) {
   const note = el(
     "div",
     { class: "suite-note", "data-pointer": "/suite" },
-    `The report will hold the published figures of ${suite} beside what is measured. `,
+    `The report will show the published figures of ${suite} beside the measured ones. `,
     el("button", { type: "button", class: "link", onclick: leave_out }, "Leave them out"),
     el("p", { class: "error-text", hidden: true }),
   );

@@ -1,5 +1,5 @@
-// A repeated publication: its figures beside those measured here, and whether its trends hold.
-import { DIFFERENCE_COLUMNS, FRAGMENT_COLUMNS, SPEEDUP_COLUMN, TIMING_COLUMNS } from "./columns.js";
+// A repeated publication: its figures next to those measured here, and whether its trends hold.
+import { difference_columns } from "./columns.js";
 import { el } from "./dom.js";
 import { DASH, is_number } from "./format.js";
 import { point_text } from "./sweep.js";
@@ -14,45 +14,47 @@ function measured_text(value) {
   return (/e/.test(text) ? String(Number(text)) : text).replaceAll("-", "−");
 }
 
-/** A published figure with the digits that it has: a number, or the ends of a range. */
+/** A published figure with its digits: a number, or the ends of a range. */
 function published_text(value) {
   if (Array.isArray(value))
     return value[0] === value[1] ? published_text(value[0]) : value.map(published_text).join(" to ");
   return is_number(value) ? String(Number(value.toPrecision(ROUNDING_DIGITS))).replaceAll("-", "−") : DASH;
 }
 
-function metric_text(metric) {
-  const columns = [...TIMING_COLUMNS, SPEEDUP_COLUMN, ...FRAGMENT_COLUMNS, ...DIFFERENCE_COLUMNS];
-  const column = columns.find((one) => [one.path, one.metric].includes(metric) || one.path === `${metric}.value`);
+function metric_text(metric, columns) {
+  const column = columns.find((one) => one.name === metric);
   if (!column) return metric;
   return [column.head, column.unit ? el("span", { class: "unit" }, column.unit) : null];
 }
 
-/** `place`: the cell of the point, null where another row's covers it; `is_first`: no point comes before the method. */
-function figure_row(figure, place, is_first) {
+/**
+ * `place`: the cell of the point, null if another row's cell covers it; `is_first`: there is no point before the
+ * method.
+ */
+function figure_row(figure, columns, place, is_first) {
   const number = (text) => el("td", { class: "number" }, text);
   return el(
     "tr",
     {},
     place,
     is_first ? el("th", { scope: "row" }, figure.method) : el("td", {}, figure.method),
-    el("td", {}, metric_text(figure.metric)),
+    el("td", {}, metric_text(figure.metric, columns)),
     number(published_text(figure.published)),
     number(measured_text(figure.measured)),
     el("td", { class: "number muted" }, figure.ci95 ? `[${figure.ci95.map(measured_text).join(", ")}]` : DASH),
   );
 }
 
-function figures_table(figures, spec) {
+function figures_table(figures, spec, columns) {
   const place_of = (figure) => point_text(figure.at, spec);
   const with_place = figures.some((figure) => place_of(figure) !== "");
   const rows = figures.map((figure, index) => {
     const place = place_of(figure);
-    if (!with_place) return figure_row(figure, null, true);
-    if (index > 0 && place_of(figures[index - 1]) === place) return figure_row(figure, null);
+    if (!with_place) return figure_row(figure, columns, null, true);
+    if (index > 0 && place_of(figures[index - 1]) === place) return figure_row(figure, columns, null);
     let span = 1;
     while (index + span < figures.length && place_of(figures[index + span]) === place) ++span;
-    return figure_row(figure, el("th", { scope: "rowgroup", rowspan: span }, place));
+    return figure_row(figure, columns, el("th", { scope: "rowgroup", rowspan: span }, place));
   });
   const heads = ["Method", "Figure", "Published", "Measured", "95 % interval"];
   return el(
@@ -87,8 +89,8 @@ function trend_item(trend) {
   );
 }
 
-/** Null where the report repeats no publication. */
-export function suite_section(report) {
+/** Null if the report repeats no publication. `columns` describe what can be measured, `metrics` the differences. */
+export function suite_section(report, { columns, metrics }) {
   const { suite } = report;
   if (!suite) return null;
   return el(
@@ -108,6 +110,6 @@ export function suite_section(report) {
         ? el("ul", { class: "trends", "aria-label": "Trends" }, suite.trends.map(trend_item))
         : null,
     ),
-    figures_table(suite.figures ?? [], report.spec),
+    figures_table(suite.figures ?? [], report.spec, [...columns, ...difference_columns(metrics)]),
   );
 }

@@ -1,4 +1,4 @@
-// What a sweep varied, and the values of each method along it: from a report's spec and runs, without a view.
+// What a sweep varied, and the values of each method along it: from a report's spec and runs, independent of any view.
 import { value_at } from "./columns.js";
 import { is_number, short_value } from "./format.js";
 
@@ -11,7 +11,7 @@ function parts_of(pointer) {
     .map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
 }
 
-/** What a person calls a swept field: "count", "texture size", "F2BD threshold". */
+/** A readable name of a swept field: "count", "texture size", "F2BD threshold". */
 export function field_name(pointer, spec = {}) {
   const [section, ...rest] = parts_of(pointer);
   const method = section === "methods" ? spec.methods?.[Number(rest[0])] : null;
@@ -19,16 +19,35 @@ export function field_name(pointer, spec = {}) {
   return rest.join(" ").replaceAll("_", " ") || pointer;
 }
 
-/** "count 16, texture size 64"; "" where nothing is swept. */
+const LONG_TEXT = 40;
+
+/** A value of a swept field; a program in GLSL is named by its place among those that are compared. */
+function stop_text(value, index) {
+  const code = value?.glsl ?? value;
+  const is_code = typeof code === "string" && (code.includes("\n") || code.length > LONG_TEXT);
+  return is_code ? `GLSL ${index + 1}` : short_value(value);
+}
+
+/** The place of a value among the stops of the axis that sets its field. */
+function stop_index(pointer, value, spec) {
+  for (const { points, pointer: single, values } of spec.sweep ?? []) {
+    const stops = points?.map((point) => point[pointer]) ?? (single === pointer ? values : []);
+    const index = stops.findIndex((stop) => same(stop, value));
+    if (index >= 0) return index;
+  }
+  return 0;
+}
+
+/** "count 16, texture size 64"; "" if nothing is swept. */
 export function point_text(point, spec = {}) {
   return Object.entries(point ?? {})
-    .map(([pointer, value]) => `${field_name(pointer, spec)} ${short_value(value)}`)
+    .map(([pointer, value]) => `${field_name(pointer, spec)} ${stop_text(value, stop_index(pointer, value, spec))}`)
     .join(", ");
 }
 
 /**
  * The axes of `spec.sweep`: {name, points, stops}. `points` are objects of values by pointer; each stop is
- * {value, text}, where `value` is what one field was set to, or undefined where a point sets other fields than the next.
+ * {value, text}; `value` is the value of the field, or undefined if points set several fields.
  */
 export function axes_of(spec) {
   const sweep = Array.isArray(spec?.sweep) ? spec.sweep : [];
@@ -37,15 +56,35 @@ export function axes_of(spec) {
     const fields = [...new Set(points.flatMap((point) => Object.keys(point)))];
     const names = fields.map((field) => field_name(field, spec));
     const single = fields.length === 1;
-    const stop = (point) =>
+    const stop = (point, index) =>
       single
-        ? { value: point[fields[0]], text: short_value(point[fields[0]]) }
-        : { value: undefined, text: Object.values(point).map(short_value).join(", ") };
+        ? { value: point[fields[0]], text: stop_text(point[fields[0]], index) }
+        : {
+            value: undefined,
+            text: Object.values(point)
+              .map((value) => stop_text(value, index))
+              .join(", "),
+          };
     return { name: names.join(", "), points, stops: points.map(stop) };
   });
 }
 
-/** For each axis the index of the stop at which a run's point lies, −1 where it lies at none. */
+/**
+ * How a value grows along an axis: the exponent of the power law through the points, by least squares of the logarithms.
+ * `points`: [[x, y]]; null for fewer than three, or if one is not above 0.
+ */
+export function growth_exponent(points) {
+  const is_able = points.length >= 3 && points.flat().every((value) => is_number(value) && value > 0);
+  if (!is_able) return null;
+  const logs = points.map((point) => point.map(Math.log));
+  const mean = (index) => logs.reduce((sum, one) => sum + one[index], 0) / logs.length;
+  const [mean_x, mean_y] = [mean(0), mean(1)];
+  const spread = logs.reduce((sum, [x]) => sum + (x - mean_x) ** 2, 0);
+  if (spread === 0) return null;
+  return logs.reduce((sum, [x, y]) => sum + (x - mean_x) * (y - mean_y), 0) / spread;
+}
+
+/** For each axis the index of the stop of a run's point, −1 if there is none. */
 export function stops_of(axes, point) {
   return axes.map(({ points }) => {
     let found = -1;
@@ -58,7 +97,9 @@ export function stops_of(axes, point) {
   });
 }
 
-/** The runs that differ from `chosen` along one axis only: [{stop, run}] in the order of the axis, `chosen` among them. */
+/**
+ * The runs that differ from `chosen` only along one axis: [{stop, run}] in the order of the axis, including `chosen`.
+ */
 export function runs_along(axes, runs, axis, chosen) {
   const fixed = stops_of(axes, chosen.point);
   return runs
@@ -69,8 +110,8 @@ export function runs_along(axes, runs, axis, chosen) {
 }
 
 /**
- * One entry a method, in the order of the results: {label, points: [{stop, value, interval}]}. `value` is null where it
- * was not measured, `interval` where there is none.
+ * One entry per method, in the order of the results: {label, points: [{stop, value, interval}]}. `value` is null if it
+ * was not measured, `interval` if there is none.
  */
 export function series_along(along, path, interval_path) {
   const labels = [...new Set(along.flatMap(({ run }) => run.results.map((result) => result.label)))];

@@ -1,10 +1,10 @@
-// The form's part for sweeps: which parameters are varied in one job, and over which values.
+// The part of the form for sweeps: which parameters are varied in one job, and over which values.
 import { el, select, set_children, unique_id } from "./dom.js";
 import { field_frame, first_value, range_text } from "./param_form.js";
 import { pointer_of, same_id } from "./spec_model.js";
 import { field_name } from "./sweep.js";
 
-/** Values from a text with commas between them: JSON where it is such, else words. */
+/** Values from comma-separated text: JSON if it is valid, otherwise words. */
 export function read_values(text) {
   if (text.trim() === "") return [];
   try {
@@ -29,7 +29,7 @@ export function values_text(values) {
   return values.map((value) => (is_word(value) ? value : JSON.stringify(value))).join(", ");
 }
 
-/** The parameters that have one value, those within objects among them, but not within objects that are left out. */
+/** The parameters with a single value, including those within objects, but not within objects that are left out. */
 function leaves(params, path, model) {
   return params.flatMap((param) => {
     const here = [...path, param.name];
@@ -39,7 +39,7 @@ function leaves(params, path, model) {
   });
 }
 
-/** Values to begin with: all choices, or the value that the parameter has now. */
+/** Initial values: all choices, or the current value of the parameter. */
 function first_values(field, model) {
   if (!field) return [];
   const { param, path } = field;
@@ -75,7 +75,11 @@ export class SweepForm {
       "section",
       { class: "card", "data-pointer": "/sweep", "aria-label": "Sweep" },
       el("h2", {}, "Sweep"),
-      el("p", { class: "hint" }, "Parameters to vary in one job; several give every combination of their values."),
+      el(
+        "p",
+        { class: "hint" },
+        "Parameters to vary in one job; several of them give every combination of their values.",
+      ),
       this.#rows,
       el(
         "div",
@@ -92,7 +96,7 @@ export class SweepForm {
     return Array.isArray(sweep) ? sweep : [];
   }
 
-  /** What can be swept now: parameters of the scene, the image and each method. */
+  /** What can currently be swept: parameters of the scene, the image and each method. */
   get #groups() {
     const scene = this.#scenes.find((one) => same_id(one.id, this.#model.get(["scene", "type"])));
     const parameters = (index) => {
@@ -124,7 +128,7 @@ export class SweepForm {
     this.#rows.lastElementChild.querySelector("select").focus();
   }
 
-  /** Anew, after the parameters that can be swept have changed. */
+  /** Draws it again after the parameters that can be swept have changed. */
   draw() {
     set_children(
       this.#rows,
@@ -158,7 +162,7 @@ export class SweepForm {
     const spec = this.#model.spec;
     const fields = Array.isArray(points) ? [...new Set(points.flatMap((point) => Object.keys(point ?? {})))] : [];
     const names = fields.map((field) => field_name(field, spec)).join(" and ");
-    return el("p", {}, `${points.length} points of ${names} set together; they can be changed as JSON.`);
+    return el("p", {}, `${points.length} points of ${names} set together; they can be edited as JSON.`);
   }
 
   #fields(axis, index, path) {

@@ -1,19 +1,11 @@
-// The part of a report that is there for sweeps: charts of times and metrics, and the choice of the point to look at.
+// The part of a report for sweeps: charts of times and metrics, and the choice of the point to show.
 import { legend, line_chart } from "./chart.js";
-import {
-  DIFFERENCE_COLUMNS,
-  FRAGMENT_COLUMNS,
-  SPEEDUP_COLUMN,
-  TIMING_COLUMNS,
-  missing_reason,
-  value_at,
-} from "./columns.js";
+import { columns_of, difference_columns, missing_reason, value_at } from "./columns.js";
 import { el, select, set_children } from "./dom.js";
 import { column_decimals, DASH, fixed, integer, is_number } from "./format.js";
-import { axes_of, point_text, runs_along, series_along, stops_of } from "./sweep.js";
+import { axes_of, growth_exponent, point_text, runs_along, series_along, stops_of } from "./sweep.js";
+import { SweepGrid } from "./sweep_grid.js";
 
-const TIME = { ...TIMING_COLUMNS[0], head: "Time", interval: "timing.ci95" };
-const SPEEDUP = { ...SPEEDUP_COLUMN, interval: "speedup.ci95", mark: 1 };
 const FIRST_METRIC = "metrics.flip.mean";
 
 function has_values(runs, column) {
@@ -29,7 +21,7 @@ function shown_in(along, column) {
   return (value, interval) => (interval ? `${text(value)} [${interval.map(text).join(", ")}]` : text(value));
 }
 
-/** Everything along the axis as numbers: one row a point and method. */
+/** All values along the axis as numbers: one row per point and method. */
 function values_table(axis, along, columns) {
   const shown = columns.map((column) => shown_in(along, column));
   const cell = (result, column, index) => {
@@ -72,21 +64,24 @@ function values_table(axis, along, columns) {
   );
 }
 
-/** `element` for the page; `on_run(run)` hears of the first and of every chosen run. */
+/** `element` is for the page; `on_run(run)` is called for the run `first` and for every chosen one. */
 export class SweepView {
   #report;
   #axes;
   #stops;
   #axis = 0;
   #metrics;
+  #timed;
   #metric;
   #on_run;
   #charts = el("div", { class: "charts" });
   #values = el("div");
   #points = el("div", { class: "point-row", role: "group", "aria-label": "Point of the sweep" });
   #metric_select;
+  #grid;
+  #growth = el("p", { class: "growth muted" });
 
-  constructor(report, on_run) {
+  constructor(report, { metrics, columns }, on_run, first) {
     this.#report = report;
     this.#on_run = on_run;
     this.#axes = axes_of(report.spec);
@@ -94,10 +89,16 @@ export class SweepView {
       0,
       this.#axes.findIndex((axis) => axis.stops.length > 1),
     );
-    this.#stops = stops_of(this.#axes, report.runs[0].point);
-    this.#metrics = [...DIFFERENCE_COLUMNS, ...FRAGMENT_COLUMNS].filter(
+    this.#stops = stops_of(this.#axes, first.point);
+    this.#metrics = [...difference_columns(metrics), ...columns_of(columns, "fragments")].filter(
       (column) => !column.pixel && has_values(report.runs, column),
     );
+    this.#timed = [
+      ...columns_of(columns, "speedups").map((column) => ({ ...column, interval: "speedup.ci95", mark: 1 })),
+      ...columns_of(columns, "times")
+        .slice(0, 1)
+        .map((column) => ({ ...column, head: "Time", interval: "timing.ci95" })),
+    ];
     this.#metric = this.#metrics.find((column) => column.path === FIRST_METRIC) ?? this.#metrics[0];
     this.#metric_select = select(
       {
@@ -112,6 +113,7 @@ export class SweepView {
       this.#metric?.path,
     );
     const labels = report.runs[0].results.map((result) => result.label);
+    this.#grid = this.#make_grid();
     this.element = el(
       "section",
       { class: "sweep-view", "aria-label": "Sweep" },
@@ -120,12 +122,45 @@ export class SweepView {
       el(
         "p",
         { class: "hint" },
-        "Bars are 95 % intervals, where there were rounds enough. A click, or Enter, looks at a point below.",
+        "Bars are 95 % intervals, if there were enough rounds. A click, or Enter, shows the point below.",
       ),
+      this.#growth,
+      this.#grid?.element,
       this.#values,
     );
     this.point_choice = this.#points;
     this.#choose(this.#stops);
+  }
+
+  /** Null if fewer than two axes have several stops. */
+  #make_grid() {
+    const wide = this.#axes.map((axis, index) => [axis, index]).filter(([axis]) => axis.stops.length > 1);
+    const columns = [...this.#metrics, ...this.#timed].filter((column) => has_values(this.#report.runs, column));
+    if (wide.length < 2 || columns.length === 0) return null;
+    return new SweepGrid({
+      axes: wide.slice(0, 2),
+      all_axes: this.#axes,
+      runs: this.#report.runs,
+      columns,
+      first: columns.includes(this.#metric) ? this.#metric : columns[0],
+      on_choose: (run) => this.choose_run(run),
+    });
+  }
+
+  /** How the times grow along the axis, where its values are numbers. */
+  #show_growth(axis, along) {
+    const exponents = series_along(along, "timing.median").map(({ label, points }) => {
+      const exponent = growth_exponent(points.map(({ stop, value }) => [axis.stops[stop].value, value]));
+      return exponent === null ? null : `${label} ${exponent.toFixed(2)}`;
+    });
+    const known = exponents.filter(Boolean);
+    this.#growth.hidden = known.length === 0;
+    this.#growth.textContent = `Time grows with the power of ${axis.name}: ${known.join(", ")}.`;
+  }
+
+  /** Shows a run of the report. */
+  choose_run(run) {
+    this.#choose(stops_of(this.#axes, run.point));
   }
 
   #axis_choice() {
@@ -194,7 +229,7 @@ export class SweepView {
         on_choose: (stop) => this.#choose(this.#stops.with(this.#axis, stop)),
       });
     const had_focus = [...this.#charts.querySelectorAll(".plot")].indexOf(document.activeElement);
-    const timed = [SPEEDUP, TIME].filter((column) => has_values(this.#report.runs, column));
+    const timed = this.#timed.filter((column) => has_values(this.#report.runs, column));
     set_children(
       this.#charts,
       timed.map((column) => chart(column)),
@@ -204,5 +239,7 @@ export class SweepView {
     const open = this.#values.querySelector("details")?.open;
     set_children(this.#values, values_table(axis, along, [...timed, ...this.#metrics]));
     if (open) this.#values.querySelector("details").open = true;
+    this.#show_growth(axis, along);
+    if (run) this.#grid?.show(run);
   }
 }

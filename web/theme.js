@@ -1,11 +1,11 @@
-// Light, dark, or as the system has it. A classic script, so that the choice is there before the first paint.
+// Light, dark, or the system's choice. A classic script, so that the choice is known before the first paint.
 (() => {
   const KEY = "sheer.theme";
   const CHOICES = ["auto", "light", "dark"];
   const NAMES = { auto: "system", light: "light", dark: "dark" };
   const SIGNS = { auto: "◐", light: "○", dark: "●" };
 
-  // Storage is closed to some pages, such as files opened from disk with strict settings.
+  // Storage is not available to some pages, such as files opened from disk with strict settings.
   const load = () => {
     try {
       return localStorage.getItem(KEY);
@@ -17,7 +17,7 @@
     try {
       localStorage.setItem(KEY, choice);
     } catch {
-      // The choice then holds for this page only.
+      // The choice is then valid for this page only.
     }
   };
 

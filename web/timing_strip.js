@@ -1,12 +1,12 @@
-// The timed frames of one method as a strip: a dot a frame, outliers as rings, a box over the middle half, a line at the
-// median.
+// The timed frames of one method as a strip: a dot per frame, outliers as rings, a box over the middle half, a line at
+// the median.
 import { svg } from "./dom.js";
 import { fixed, is_number } from "./format.js";
 
 const WIDTH = 220;
 const HEIGHT = 22;
 const MARGIN = 4;
-const ROWS = [0.5, 0.28, 0.72, 0.39, 0.61]; // spreads dots over each other, the same way every time
+const ROWS = [0.5, 0.28, 0.72, 0.39, 0.61]; // spreads dots vertically, always in the same way
 
 function quantile(sorted, share) {
   const position = (sorted.length - 1) * share;
@@ -21,7 +21,7 @@ export function timing_samples(result) {
   return samples.map((sample) => (is_number(sample) ? sample : sample?.ms)).filter(is_number);
 }
 
-/** A round number not below `value`, for the end of the axis. */
+/** A round number of at least `value`, for the end of the axis. */
 export function axis_end(value) {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));

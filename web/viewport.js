@@ -1,4 +1,4 @@
-// What part of the pictures is seen, shared by all panes so that they zoom and pan together.
+// The visible part of the pictures, shared by all panes so that they zoom and pan together.
 
 const STEPS = [1 / 16, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32, 64];
 
@@ -8,6 +8,8 @@ export class Viewport extends EventTarget {
   #zoom = null; // device pixels per picture pixel; null: as much as fits
   #center;
   #cursor = null;
+  #chosen = null; // the pixel that was marked deliberately, which stays when the mouse leaves
+  #area = null; // [x0, y0, x1, y1], the last two beyond its last pixel
 
   constructor(width_px, height_px) {
     super();
@@ -25,6 +27,42 @@ export class Viewport extends EventTarget {
   get cursor() {
     return this.#cursor;
   }
+  get area() {
+    return this.#area;
+  }
+  set area(area) {
+    this.#area = area;
+    this.dispatchEvent(new Event("area"));
+  }
+
+  /** Zoom, position and pixel as texts for an address; {} while the whole pictures are shown and no pixel is marked. */
+  to_query() {
+    const one = (value) => String(Math.round(value * 100) / 100);
+    return {
+      ...(this.fits ? {} : { zoom: one(this.#zoom), at: this.#center.map(one).join() }),
+      ...(this.#area ? { area: this.#area.join() } : {}),
+      ...(this.#chosen ? { pixel: this.#chosen.join() } : {}),
+    };
+  }
+
+  /** The opposite of to_query(). What is not a place in the pictures is ignored. */
+  from_query({ zoom, at, area, pixel }) {
+    const numbers = (text, count) => {
+      const found = (text ?? "").split(",").map((part) => Number(part || NaN));
+      return found.length === count && found.every(Number.isFinite) ? found : null;
+    };
+    const center = numbers(at, 2);
+    const factor = Number(zoom || NaN);
+    const is_zoomed = center && factor >= STEPS[0] && factor <= STEPS.at(-1);
+    this.#zoom = is_zoomed ? factor : null;
+    this.#center = is_zoomed ? center : [this.#width / 2, this.#height / 2];
+    const box = numbers(area, 4);
+    this.#area = box && box[0] < box[2] && box[1] < box[3] ? box : null;
+    const marked = numbers(pixel, 2)?.map(Math.floor);
+    this.#chosen = this.#cursor = marked && this.contains(marked) ? marked : null;
+    this.#changed();
+    this.dispatchEvent(new Event("cursor"));
+  }
 
   /** Device pixels per picture pixel in a pane of this size (CSS pixels). */
   zoom_in(pane_width, pane_height) {
@@ -40,7 +78,7 @@ export class Viewport extends EventTarget {
   }
 
   /**
-   * Where the picture lies in a pane: {scale, left, top} in CSS pixels from the pane's corner, which itself lies at
+   * The place of the picture in a pane: {scale, left, top} in CSS pixels from the pane's corner, which is at
    * (x0, y0) of the window. Snapped to device pixels of the window, so that picture pixels fall on whole screen pixels.
    */
   place(pane_width, pane_height, x0 = 0, y0 = 0) {
@@ -64,12 +102,12 @@ export class Viewport extends EventTarget {
     const middle_x = (pane.width / 2 - before.left) / before.scale;
     const middle_y = (pane.height / 2 - before.top) / before.scale;
     const [anchor_x, anchor_y] = [x ?? middle_x, y ?? middle_y];
-    const shrink = before.scale / (zoom / ratio);
-    this.#zoom = zoom;
+    this.#zoom = Math.min(STEPS.at(-1), Math.max(STEPS[0], zoom));
+    const shrink = before.scale / (this.#zoom / ratio);
     this.#move_center(anchor_x + (middle_x - anchor_x) * shrink, anchor_y + (middle_y - anchor_y) * shrink);
   }
 
-  /** To the next step in (+1) or out (-1). */
+  /** Zooms one step in (+1) or out (-1). */
   step(direction, pane, x = null, y = null) {
     const now = this.zoom_in(pane.width, pane.height);
     const next =
@@ -84,7 +122,7 @@ export class Viewport extends EventTarget {
     this.#move_center(this.#center[0] - dx / scale, this.#center[1] - dy / scale);
   }
 
-  /** Shows the pixel (x, y) in the middle, and marks it. */
+  /** Centers the pixel (x, y) and marks it. */
   show_pixel(x, y, zoom) {
     this.#zoom = zoom;
     this.#cursor = [x, y];
@@ -96,9 +134,9 @@ export class Viewport extends EventTarget {
     return x >= 0 && y >= 0 && x < this.#width && y < this.#height;
   }
 
-  /** Marks a pixel, or none with null. */
+  /** Marks a pixel; with null the one that was chosen, if there is one. */
   set_cursor(pixel) {
-    this.#cursor = pixel && this.contains(pixel) ? pixel : null;
+    this.#cursor = pixel && this.contains(pixel) ? pixel : this.#chosen;
     this.dispatchEvent(new Event("cursor"));
   }
 
@@ -117,8 +155,15 @@ export class Viewport extends EventTarget {
     this.#changed();
   }
 
-  /** The user turned to one pixel on purpose, not just passed over it. */
+  /** Marks a pixel until another one is chosen. */
+  choose(pixel) {
+    this.#cursor = pixel;
+    this.#inspect();
+  }
+
+  /** The user selected a pixel deliberately, not just passed over it. */
   #inspect() {
+    this.#chosen = this.#cursor;
     this.dispatchEvent(new Event("cursor"));
     this.dispatchEvent(new Event("inspect"));
   }

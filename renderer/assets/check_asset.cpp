@@ -37,7 +37,7 @@ AssetKind nrrd_kind() {
             {".nrrd"}};
 }
 
-/// The spec says what they hold, so there is nothing to check yet.
+/// The spec describes their contents, so there is nothing to check yet.
 AssetKind raw_volume_kind() {
     return {"application/octet-stream",
             "volume",
@@ -86,7 +86,7 @@ const AssetKind* find_asset_kind(const std::string& media_type) {
 
 json check_asset(const std::filesystem::path& file, const std::string& media_type) {
     const AssetKind* kind = find_asset_kind(media_type);
-    if (kind == nullptr) throw AssetError("files of the type " + media_type + " are not taken");
+    if (kind == nullptr) throw AssetError("files of the type " + media_type + " are not accepted");
     return kind->check(file);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -12,19 +12,18 @@ namespace sheer {
 /// A kind of file that may be uploaded for specs to refer to.
 struct AssetKind {
     std::string media_type;
-    std::string type;  ///< texture, model or volume: what fields of a spec may refer to it
-    /// Reads the whole file and returns an object of what a user may want to know of it, such as its width.
-    /// Throws AssetError if it is not what it is said to be. May die on a file that is made to do harm, so it runs in a
-    /// process of its own.
+    std::string type;  ///< texture, model or volume: which fields of a spec may refer to it
+    /// Reads the whole file and returns an object with what a user may want to know about it, such as its width.
+    /// Throws AssetError if it is not of this kind. A malicious file may crash it, so it runs in a process of its own.
     std::function<nlohmann::json(const std::filesystem::path& file)> check;
-    std::vector<std::string> suffixes;  ///< that names of such files end with: lower case, with the dot
+    std::vector<std::string> suffixes;  ///< of such files' names: lower case, with the dot
 };
 
 const std::vector<AssetKind>& asset_kinds();
 /// Null if there is none; `media_type` without parameters, in lower case.
 const AssetKind* find_asset_kind(const std::string& media_type);
 
-/// What the kind's check says. Throws AssetError, also for a media type that there is not.
+/// The result of the kind's check. Throws AssetError, also for an unknown media type.
 nlohmann::json check_asset(const std::filesystem::path& file, const std::string& media_type);
 
 }  // namespace sheer

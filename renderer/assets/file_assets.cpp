@@ -8,7 +8,7 @@
 #include "renderer/assets/picture_file.h"
 #include "renderer/assets/read_model.h"
 #include "renderer/assets/read_volume.h"
-#include "renderer/sha256.h"
+#include "renderer/core/sha256.h"
 
 namespace sheer {
 
@@ -56,7 +56,7 @@ FileAssets assets_in_folder(std::filesystem::path folder) {
         std::filesystem::path file = folder / name;
         std::error_code error;
         if (!std::filesystem::is_regular_file(file, error))
-            throw AssetError(fmt::format("there is no file \"{}\"; it was looked for at {}", name,
+            throw AssetError(fmt::format("there is no file \"{}\"; looked for it at {}", name,
                                          std::filesystem::absolute(file).lexically_normal().string()));
         return file;
     };

@@ -9,11 +9,11 @@ namespace sheer {
 /// Reads the files that a spec refers to: PNG, JPEG and OpenEXR pictures; NRRD and raw volumes; glTF models.
 class FileAssets : public AssetReader {
   public:
-    /// From the name in the spec to the file; throws AssetError for one that may not be read or is not there.
+    /// From the name in the spec to the file; throws AssetError for one that must not be read or does not exist.
     using Resolver = std::function<std::filesystem::path(const std::string& name)>;
 
-    /// Whether a model, or a detached NRRD header, may read the files beside it and below: for files that the user has
-    /// chosen on this machine.
+    /// Whether a model, or a detached NRRD header, may read files in its folder and below: only if the user has chosen
+    /// the file on this machine.
     enum class Neighbours { refused, read };
 
     explicit FileAssets(Resolver resolve, Neighbours neighbours = Neighbours::refused)
@@ -25,7 +25,7 @@ class FileAssets : public AssetReader {
 
   private:
     std::string read(const std::string& name);
-    /// Those beside the file `name` and below; every one that is read is remembered.
+    /// Reads files in the folder of the file `name` and below, and remembers each one that is read.
     std::function<std::string(const std::string& other)> neighbours_of(const std::string& name);
     void remember(const std::string& name, const std::string& of, std::string_view bytes);
 
@@ -34,8 +34,8 @@ class FileAssets : public AssetReader {
     std::vector<AssetFile> m_files;
 };
 
-/// Names are paths, those that are not absolute within `folder`. What is not there is told with the path that was
-/// looked at, so this is for whoever sits at this machine.
+/// Names are paths, relative to `folder` unless they are absolute. Errors about missing files name the path, so this is
+/// for users of this machine only.
 FileAssets assets_in_folder(std::filesystem::path folder);
 
 }  // namespace sheer

@@ -11,14 +11,14 @@ namespace sheer {
 
 inline constexpr std::uintmax_t max_asset_file_bytes = std::uintmax_t{1} << 30;
 
-/// The bytes of a file that comes from outside. Throws AssetError if it cannot be read, is empty, or has more than
+/// The bytes of an untrusted file. Throws AssetError if it cannot be read, is empty, or has more than
 /// max_asset_file_bytes.
 std::string read_asset_bytes(const std::filesystem::path& file);
 
-/// Text of a file for a message: at most `most_bytes`, and a question mark for what is not printable ASCII.
+/// Text of a file for a message: at most `most_bytes`, with question marks for all but printable ASCII.
 std::string printable(std::string_view text, std::size_t most_bytes = 40);
 
-/// Reads numbers out of bytes that come from outside. Every read past the end throws AssetError.
+/// Reads numbers from untrusted bytes. Every read past the end throws AssetError.
 class ByteReader {
   public:
     explicit ByteReader(std::string_view bytes, std::size_t position = 0) : m_bytes(bytes), m_position(position) {}
@@ -32,9 +32,9 @@ class ByteReader {
     std::uint32_t u32_big() { return big(4); }
     std::uint32_t u32_little();
     float f32_little() { return std::bit_cast<float>(u32_little()); }
-    /// Up to the next zero byte, which is passed.
+    /// Up to the next zero byte, which is skipped.
     std::string_view zero_ended_text() { return take_to('\0'); }
-    /// Up to the next `end`, which is passed.
+    /// Up to the next `end`, which is skipped.
     std::string_view take_to(char end);
 
   private:

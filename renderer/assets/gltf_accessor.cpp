@@ -15,7 +15,7 @@ namespace sheer {
 
 namespace {
 
-/// A sparse accessor and one without a buffer view may ask for any number of zeros.
+/// Sparse accessors and those without a buffer view may ask for any number of zeros.
 constexpr std::size_t max_own_elements = 12000000;
 
 template <typename T>
@@ -28,7 +28,7 @@ double as_double(const char* at) {
 struct ComponentType {
     std::uint64_t type;
     std::size_t bytes;
-    double largest;  ///< what normalized numbers are divided by
+    double largest;  ///< the divisor of normalized numbers
     double (*read)(const char* at);
 };
 
@@ -40,7 +40,7 @@ constexpr std::array component_types = {
     ComponentType{gltf_component::uint32, 4, 4294967295.0, as_double<std::uint32_t>},
     ComponentType{gltf_component::float32, 4, 1, as_double<float>}};
 
-/// Null for one that glTF does not have.
+/// Null for a type that glTF does not have.
 const ComponentType* find_component_type(std::uint64_t type) {
     const auto* found = std::ranges::find(component_types, type, &ComponentType::type);
     return found == component_types.end() ? nullptr : found;
@@ -70,8 +70,7 @@ GltfAccessor::GltfAccessor(GltfFile& file, std::uint64_t index, std::string what
     }
     if (viewed && !sparse) return;
     if (m_layout.count > max_own_elements)
-        fail(fmt::format("has {} elements; at most {} are read of one that is sparse", m_layout.count,
-                         max_own_elements));
+        fail(fmt::format("has {} elements; a sparse accessor may have at most {}", m_layout.count, max_own_elements));
     auto own = std::make_shared<std::string>(m_layout.count * element_bytes(), '\0');
     for (std::size_t i = 0; viewed && i < m_layout.count; ++i)
         std::memcpy(own->data() + i * element_bytes(), m_data + i * m_stride_bytes, element_bytes());
@@ -107,7 +106,7 @@ GltfAccessor::Span GltfAccessor::find_span(GltfFile& file, const GltfObject& obj
                       offset = object.whole_number("byteOffset").value_or(0), whole = view.bytes.size();
     if (stride < size) fail("has a stride smaller than its elements");
     if (offset > whole || size > whole - offset || count - 1 > (whole - offset - size) / stride)
-        fail(fmt::format("has {} elements, which reach beyond its buffer view of {} bytes", count, whole));
+        fail(fmt::format("has {} elements, which exceed its buffer view of {} bytes", count, whole));
     return {view.bytes.data() + offset, stride};
 }
 
@@ -120,7 +119,7 @@ void GltfAccessor::substitute(GltfFile& file, const GltfObject& sparse) {
     const ComponentType* type = find_component_type(indices->needed_number("componentType"));
     if (type == nullptr || (type->type != gltf_component::uint8 && type->type != gltf_component::uint16 &&
                             type->type != gltf_component::uint32))
-        fail("is sparse with indices that are not whole numbers without a sign");
+        fail("is sparse with indices that are not unsigned whole numbers");
     const Span from = find_span(file, *values, count, element_bytes()),
                at = find_span(file, *indices, count, type->bytes);
     auto own = std::make_shared<std::string>(*m_own);

@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
 constexpr std::size_t glb_header_bytes = 12, chunk_header_bytes = 8;
-/// The parser goes down by recursion when it frees what it has read.
+/// The parser frees what it has read recursively.
 constexpr int max_json_depth = 100;
-/// Of each of the lists at the top: their objects take far more memory than their text.
+/// In each of the top-level lists: their objects take far more memory than their text.
 constexpr std::size_t max_objects = 100000;
-/// A picture or a buffer may stand in a .gltf as text, beside a .glb's JSON only in small.
+/// A .gltf may contain pictures and buffers as text; the JSON of a .glb should have only small ones.
 constexpr std::size_t max_glb_json_bytes = std::size_t{64} << 20;
 
 /// Returns the text of the JSON chunk.
@@ -29,7 +29,7 @@ std::string_view open_glb(std::string_view bytes, GltfContainer& container) {
     if (version != 2) throw AssetError(fmt::format("the file is binary glTF of version {}; only 2 is read", version));
     if (length > bytes.size())
         throw AssetError(
-            fmt::format("the file is cut off: it has {} bytes, and its header says {}", bytes.size(), length));
+            fmt::format("the file is cut off: it has {} bytes, but its header says {}", bytes.size(), length));
     if (length < glb_header_bytes) throw AssetError(fmt::format("the file's header says that it has {} bytes", length));
     container.is_binary = true;
     container.bytes_after_end = bytes.size() - length;
@@ -40,7 +40,7 @@ std::string_view open_glb(std::string_view bytes, GltfContainer& container) {
         const std::uint32_t size = reader.u32_little(), type = reader.u32_little();
         if (size > reader.left())
             throw AssetError(
-                fmt::format("chunk {} of the file has {} bytes, of which {} are there", number, size, reader.left()));
+                fmt::format("chunk {} of the file has {} bytes, but only {} are left", number, size, reader.left()));
         const std::string_view chunk = reader.take(size);
         if (number == 0 && type == json_chunk) text = chunk;
         if (number == 1 && type == binary_chunk) container.binary = chunk;
@@ -91,7 +91,7 @@ json parse_json(std::string_view text) {
     try {
         return json::parse(text);
     } catch (const json::exception& error) {
-        // The library's text begins with the name of its exception in brackets.
+        // The library's message begins with the name of the exception in brackets.
         const std::string message = error.what();
         throw AssetError("the file's JSON cannot be read: " +
                          message.substr(std::min(message.find("] ") + 2, message.size())));

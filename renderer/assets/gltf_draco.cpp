@@ -11,7 +11,7 @@ namespace sheer {
 
 namespace {
 
-/// 0 for one that glTF does not have.
+/// 0 for a type that glTF does not have.
 std::uint64_t component_type_of(draco::DataType type) {
     switch (type) {
         case draco::DT_INT8:
@@ -39,7 +39,7 @@ DracoMesh::Attribute read_attribute(const draco::Mesh& mesh, std::uint64_t id, c
     attribute.components = from->num_components();
     attribute.component_type = component_type_of(from->data_type());
     if (attribute.component_type == 0 || attribute.components < 1 || attribute.components > 4)
-        throw AssetError(fmt::format("{}: attribute {} has values of a kind that glTF does not have", what, id));
+        throw AssetError(fmt::format("{}: attribute {} has values of a type that glTF does not have", what, id));
     const auto size = static_cast<std::size_t>(draco::DataTypeLength(from->data_type()) * from->num_components());
     auto data = std::make_shared<std::string>(size * mesh.num_points(), '\0');
     for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {

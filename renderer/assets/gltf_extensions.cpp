@@ -1,5 +1,7 @@
 #include "renderer/assets/gltf_extensions.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -21,8 +23,8 @@ constexpr std::array read_names = {"EXT_mesh_gpu_instancing",
                                    "KHR_node_visibility",
                                    "KHR_texture_transform"};
 
-/// How the names begin of extensions of lights, animation and behaviour, of reflections and other ways of shading, of
-/// sound, physics and metadata, and of coarser or other forms of what is there.
+/// Prefixes of the names of extensions for lights, animation and behaviour, for reflections and other shading models,
+/// for sound, physics and metadata, and for levels of detail and other variants of the same data.
 constexpr std::array beside_beginnings = {"AGI_",
                                           "CESIUM_primitive_outline",
                                           "EXT_feature_metadata",

@@ -11,14 +11,14 @@ namespace sheer {
 using nlohmann::json;
 
 std::string no_other_files(const std::string& name) {
-    throw AssetError(fmt::format("the file needs another file, \"{:.80}\"; all must be inside the one", name));
+    throw AssetError(fmt::format("the file needs another file, \"{:.80}\"; everything must be in one file", name));
 }
 
 GltfFile::GltfFile(std::string_view bytes, const OtherFiles& others)
     : m_container(open_gltf(bytes)), m_root(m_container.document, "the file", ""), m_others(others) {
     if (m_container.bytes_after_end > 0)
         note("bytes-ignored",
-             fmt::format("The file goes on for {} bytes after the length that its header says; they are not read.",
+             fmt::format("The file has {} bytes after the length in its header; they are ignored.",
                          m_container.bytes_after_end),
              "");
     check_extensions();
@@ -31,11 +31,10 @@ void GltfFile::check_extensions() {
         if (!extension.is_string()) throw AssetError("extensionsRequired holds something that is not a name");
         const auto name = extension.get<std::string>();
         if (!is_extension_read(name) && !is_extension_beside_the_picture(name))
-            throw AssetError(fmt::format("the file needs the extension {:.80}, which is not read", name));
+            throw AssetError(fmt::format("the file needs the extension {:.80}, which is not supported", name));
     }
     for (const auto& [name, where] : unread_extensions(m_container.document))
-        note("extension-ignored", fmt::format("The extension {:.80} is not read: what it says is left out.", name),
-             where);
+        note("extension-ignored", fmt::format("The extension {:.80} is not supported and is ignored.", name), where);
 }
 
 const json& GltfFile::list(const GltfList& list) const {
@@ -75,12 +74,12 @@ std::string_view GltfFile::buffer(std::uint64_t index, const std::string& from) 
         bytes = known->second;
     } else {
         if (!m_container.is_binary) throw AssetError(object.what() + " is missing: it has no uri");
-        if (index != 0) throw AssetError(object.what() + " is missing: only the first may stand in the binary chunk");
+        if (index != 0) throw AssetError(object.what() + " is missing: only the first may be in the binary chunk");
         if (!m_container.binary) throw AssetError(object.what() + " is missing: the file has no binary chunk");
         bytes = *m_container.binary;
     }
     if (length > bytes.size())
-        throw AssetError(fmt::format("{} has {} bytes, of which {} are there", object.what(), length, bytes.size()));
+        throw AssetError(fmt::format("{} has {} bytes, but only {} exist", object.what(), length, bytes.size()));
     return bytes.substr(0, length);
 }
 
@@ -90,7 +89,7 @@ std::string_view GltfFile::span(const GltfObject& object) {
                         length = object.needed_number("byteLength");
     if (length == 0) throw AssetError(object.what() + " is empty");
     if (offset > whole.size() || length > whole.size() - offset)
-        throw AssetError(fmt::format("{} reaches beyond the {} bytes of its buffer", object.what(), whole.size()));
+        throw AssetError(fmt::format("{} exceeds the {} bytes of its buffer", object.what(), whole.size()));
     return whole.substr(offset, length);
 }
 

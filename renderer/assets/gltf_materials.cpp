@@ -9,7 +9,7 @@ namespace sheer {
 
 namespace {
 
-/// So much light is white whatever is drawn over it.
+/// This much light is white whatever is drawn over it.
 constexpr double max_emitted = 1e6;
 
 Material::Alpha alpha_mode(const GltfObject& material) {
@@ -20,7 +20,7 @@ Material::Alpha alpha_mode(const GltfObject& material) {
     material.fail(fmt::format("alphaMode must be OPAQUE, MASK or BLEND, not \"{:.40}\"", name));
 }
 
-/// Khronos, KHR_texture_transform: translation * rotation * scale, where a turn is counter-clockwise as v points down.
+/// Khronos, KHR_texture_transform: translation * rotation * scale; rotation is counter-clockwise because v points down.
 GltfUv uv_of(const GltfObject& info) {
     GltfUv uv{info.whole_number("texCoord").value_or(0)};
     const auto transform = info.extension("KHR_texture_transform");
@@ -35,7 +35,7 @@ GltfUv uv_of(const GltfObject& info) {
     return uv;
 }
 
-/// Colour and alpha, the colour encoded.
+/// Color, sRGB-encoded, and alpha.
 glm::vec4 color_of(const GltfObject& from, const char* name) {
     const std::vector<double> factor = from.numbers(name, 4);
     if (factor.empty()) return glm::vec4(1);
@@ -72,7 +72,7 @@ void GltfMaterials::read_base(const GltfObject& from, Material& material, GltfUv
     const auto glossy = from.extension("KHR_materials_pbrSpecularGlossiness");
     const auto base = glossy ? glossy : from.object("pbrMetallicRoughness");
     if (!base) return;
-    // What glass lets through has been taken off the alpha of a surface that is opaque otherwise.
+    // The alpha of an otherwise opaque surface has been reduced by what glass lets through.
     const glm::vec4 color = color_of(*base, glossy ? "diffuseFactor" : "baseColorFactor");
     const bool alpha_counts = alpha_mode(from) != Material::Alpha::opaque;
     material.base_color = {glm::vec3(color), material.base_color.a * (alpha_counts ? color.a : 1)};
@@ -103,11 +103,11 @@ void GltfMaterials::read_transmission(const GltfObject& from, Material& material
     m_file.note(
         "transmission-blended",
         fmt::format("KHR_materials_transmission is drawn as BLEND with alpha times {:g}; its tint, refraction{} "
-                    "are left out.",
+                    "are ignored.",
                     1 - factor, transmission->has("transmissionTexture") ? ", blur and texture" : " and blur"),
         from.where());
     if (material.alpha == Material::Alpha::mask)
-        m_file.note("mask-blended", "The mask's cutoff is left out, as the surface lets light through.", from.where());
+        m_file.note("mask-blended", "The mask's cutoff is ignored because the surface transmits light.", from.where());
     material.alpha = Material::Alpha::blend;
     material.base_color.a = static_cast<float>(1 - factor);
 }
@@ -127,8 +127,8 @@ void GltfMaterials::note_unread(const GltfObject& from) {
     m_unread_noted = true;
     m_file.note(
         "material-textures-ignored",
-        fmt::format("Textures of bumps, shade and gloss ({} here) are not read: a surface has the colours of its "
-                    "base and what it emits.",
+        fmt::format("Textures for bumps, shade and gloss ({} here) are ignored: a surface has its base color and "
+                    "the light that it emits.",
                     names),
         from.where());
 }

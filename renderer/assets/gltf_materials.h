@@ -11,8 +11,7 @@
 
 namespace sheer {
 
-/// Where the texture coordinates of a picture come from: an attribute, moved, turned and scaled
-/// (KHR_texture_transform).
+/// The source of a picture's texture coordinates: an attribute, and its transform (KHR_texture_transform).
 struct GltfUv {
     std::uint64_t set = 0;  ///< of TEXCOORD_<set>
     glm::dmat3x2 transform{1, 0, 0, 1, 0, 0};
@@ -20,13 +19,13 @@ struct GltfUv {
     glm::dvec2 operator()(const glm::dvec2& at) const { return transform * glm::dvec3(at, 1); }
 };
 
-/// The materials of a glTF file that are in use, numbered as they are first met. Throws AssetError.
+/// The materials of a glTF file that are in use, numbered in the order of first use. Throws AssetError.
 class GltfMaterials {
   public:
     /// The file and the pictures outlive it.
     GltfMaterials(GltfFile& file, GltfPictures& pictures) : m_file(file), m_pictures(pictures) {}
 
-    /// The number here of the file's material; nothing is glTF's default material. `what` names who uses it.
+    /// The number for a material of the file; without an index, for glTF's default material. `what` names its user.
     std::uint32_t use(std::optional<std::uint64_t> index, const std::string& what);
 
     const std::vector<Material>& materials() const { return m_materials; }

@@ -9,7 +9,7 @@ namespace sheer {
 
 namespace {
 
-/// A few bytes may say that they stand for many.
+/// A few bytes may claim to decode to many.
 constexpr std::uint64_t max_decoded_bytes = std::uint64_t{512} << 20;
 
 struct Elements {
@@ -22,11 +22,11 @@ Elements elements_of(const GltfObject& extension, const std::string& mode) {
         elements.stride_bytes > 0 && elements.stride_bytes <= 256 && elements.stride_bytes % 4 == 0;
     const bool index = elements.stride_bytes == 2 || elements.stride_bytes == 4;
     if (mode == "ATTRIBUTES" ? !whole_words : !index)
-        extension.fail(fmt::format("byteStride cannot be {} where mode is {}", elements.stride_bytes, mode));
+        extension.fail(fmt::format("byteStride cannot be {} if mode is {}", elements.stride_bytes, mode));
     if (elements.count == 0) extension.fail("count is 0");
     if (elements.count > max_decoded_bytes / elements.stride_bytes)
-        extension.fail(fmt::format("it stands for more than {} bytes", max_decoded_bytes));
-    if (mode == "TRIANGLES" && elements.count % 3 != 0) extension.fail("count is not that of whole triangles");
+        extension.fail(fmt::format("it decodes to more than {} bytes", max_decoded_bytes));
+    if (mode == "TRIANGLES" && elements.count % 3 != 0) extension.fail("count is not a multiple of 3");
     return elements;
 }
 
@@ -34,7 +34,7 @@ void apply_filter(const GltfObject& extension, const Elements& elements, std::st
     const std::string filter = extension.text("filter", "NONE");
     const auto expect = [&](bool fits) {
         if (!fits)
-            extension.fail(fmt::format("byteStride cannot be {} where filter is {}", elements.stride_bytes, filter));
+            extension.fail(fmt::format("byteStride cannot be {} if filter is {}", elements.stride_bytes, filter));
     };
     if (filter == "OCTAHEDRAL") {
         expect(elements.stride_bytes == 4 || elements.stride_bytes == 8);

@@ -6,7 +6,7 @@
 
 namespace sheer {
 
-/// The bytes of a buffer view that EXT_meshopt_compression holds: `extension` says how `compressed` is to be read.
+/// The bytes of a buffer view with EXT_meshopt_compression: `extension` says how to read `compressed`.
 /// Source: Khronos, EXT_meshopt_compression; meshoptimizer. Throws AssetError.
 std::string decode_meshopt(const GltfObject& extension, std::string_view compressed);
 

@@ -56,7 +56,7 @@ class Instances {
         }
     }
 
-    /// None of the three says how many: one instance, where the node is.
+    /// If none of the three attributes exists: one instance, at the node.
     std::size_t count() const { return m_count.value_or(1); }
 
     glm::dmat4 transform(std::size_t i, const std::string& what) const {
@@ -78,7 +78,7 @@ class Instances {
         if (!index) return std::nullopt;
         GltfAccessor accessor(file, *index, attributes.what() + ": " + name);
         if (accessor.components() != components)
-            throw AssetError(fmt::format("{} has {} numbers an element", accessor.what(), accessor.components()));
+            throw AssetError(fmt::format("{} has {} numbers per element", accessor.what(), accessor.components()));
         return accessor;
     }
 
@@ -114,9 +114,9 @@ class Walk {
         std::string from;
     };
 
-    /// A node may be met once: what is met again is a loop, or shared by two parents, which glTF forbids.
+    /// A node must be visited only once: a second visit means a loop or two parents, which glTF forbids.
     void look_at(const std::vector<std::uint64_t>& nodes, const glm::dmat4& parent, const std::string& from) {
-        if (nodes.size() > m_met.size()) throw AssetError(from + " has more nodes below it than there are");
+        if (nodes.size() > m_met.size()) throw AssetError(from + " has more nodes below it than the file has");
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) m_ahead.push_back({*node, parent, from});
     }
 
@@ -127,7 +127,7 @@ class Walk {
         m_met[visit.node] = true;
         if (const auto visibility = node.extension("KHR_node_visibility");
             visibility && visibility->has("visible") && !visibility->flag("visible"))
-            return m_file.note("hidden-nodes", "What KHR_node_visibility hides is not drawn.", node.where());
+            return m_file.note("hidden-nodes", "Nodes that KHR_node_visibility hides are not drawn.", node.where());
         const glm::dmat4 world = visit.parent * transform_of(node);
         if (const auto mesh = node.whole_number("mesh")) place(node, *mesh, world);
         look_at(node.whole_numbers("children"), world, node.what());
@@ -136,7 +136,7 @@ class Walk {
     void place(const GltfObject& node, std::uint64_t mesh, const glm::dmat4& world) {
         if (node.has("skin")) {
             if (!std::exchange(m_skin_noted, true))
-                m_file.note("skin-at-rest", "Skinned meshes stand as their files have them: joints do not move them.",
+                m_file.note("skin-at-rest", "Skinned meshes are drawn as they are stored: joints do not move them.",
                             node.where());
             return add({mesh, node.what(), glm::dmat4(1)});
         }

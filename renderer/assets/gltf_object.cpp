@@ -1,6 +1,7 @@
 #include "renderer/assets/gltf_object.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <utility>
@@ -13,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Up to here every whole number is a double of its own.
+/// Up to here every whole number is exact as a double.
 constexpr double largest_whole_double = 9007199254740992.0;
 
 std::optional<std::uint64_t> as_whole_number(const json& value) {
@@ -50,7 +51,7 @@ std::optional<std::uint64_t> GltfObject::whole_number(const char* name) const {
     const json* found = find(name);
     if (found == nullptr) return std::nullopt;
     const auto number = as_whole_number(*found);
-    if (!number) fail(fmt::format("{} must be a whole number from 0 up", name));
+    if (!number) fail(fmt::format("{} must be a whole number of at least 0", name));
     return number;
 }
 
@@ -77,7 +78,7 @@ bool GltfObject::flag(const char* name) const {
 std::string GltfObject::text(const char* name, const std::string& otherwise) const {
     const json* found = find(name);
     if (found == nullptr) return otherwise;
-    if (!found->is_string()) fail(fmt::format("{} must be a text", name));
+    if (!found->is_string()) fail(fmt::format("{} must be a string", name));
     return found->get<std::string>();
 }
 
@@ -99,7 +100,7 @@ std::vector<std::uint64_t> GltfObject::whole_numbers(const char* name) const {
     std::vector<std::uint64_t> numbers;
     for (const json& value : *list) {
         const auto number = as_whole_number(value);
-        if (!number) fail(fmt::format("{} holds something that is not a whole number from 0 up", name));
+        if (!number) fail(fmt::format("{} holds something that is not a whole number of at least 0", name));
         numbers.push_back(*number);
     }
     return numbers;

@@ -23,7 +23,7 @@ PictureUse::Wrap wrap_of(const GltfObject& sampler, const char* name) {
         case 33648:
             return PictureUse::Wrap::mirror;
         default:
-            sampler.fail(fmt::format("{} is none of 10497 (repeat), 33071 (clamp) and 33648 (mirror)", name));
+            sampler.fail(fmt::format("{} must be 10497 (repeat), 33071 (clamp) or 33648 (mirror)", name));
     }
 }
 
@@ -38,7 +38,7 @@ constexpr std::array min_filters = {
     MinFilter{9984, true, PictureUse::Mipmaps::nearest}, MinFilter{9985, false, PictureUse::Mipmaps::nearest},
     MinFilter{9986, true, PictureUse::Mipmaps::linear},  MinFilter{9987, false, PictureUse::Mipmaps::linear}};
 
-/// What else a texture may have as its source, and may be its only one.
+/// Other sources that a texture may have, possibly as its only one.
 constexpr std::array unread_sources = {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"};
 
 }  // namespace
@@ -63,8 +63,8 @@ std::uint64_t GltfPictures::image_of(const GltfObject& texture) {
     if (const auto webp = texture.extension("EXT_texture_webp")) image = webp->whole_number("source");
     for (const char* name : unread_sources)
         if (!image && texture.extension(name))
-            texture.fail(fmt::format("its only picture is one of {}, which is not read", name));
-    if (!image) texture.fail("there is no source");
+            texture.fail(fmt::format("its only picture is in {}, which is not supported", name));
+    if (!image) texture.fail("it has no source");
     m_file.item(gltf_lists::images, *image, texture.what());
     return *image;
 }
@@ -73,11 +73,11 @@ void GltfPictures::read_sampler(const GltfObject& sampler, PictureUse& use) cons
     use.wrap_s = wrap_of(sampler, "wrapS");
     use.wrap_t = wrap_of(sampler, "wrapT");
     const std::uint64_t magnified = sampler.whole_number("magFilter").value_or(9729);
-    if (magnified != 9728 && magnified != 9729) sampler.fail("magFilter is neither 9728 (nearest) nor 9729 (linear)");
+    if (magnified != 9728 && magnified != 9729) sampler.fail("magFilter must be 9728 (nearest) or 9729 (linear)");
     use.nearest_when_magnified = magnified == 9728;
     const std::uint64_t minified = sampler.whole_number("minFilter").value_or(9987);
     const auto* filter = std::ranges::find(min_filters, minified, &MinFilter::value);
-    if (filter == min_filters.end()) sampler.fail("minFilter is none of 9728, 9729 and 9984 to 9987");
+    if (filter == min_filters.end()) sampler.fail("minFilter must be 9728, 9729 or 9984 to 9987");
     use.nearest_when_minified = filter->nearest;
     use.mipmaps = filter->mipmaps;
 }
@@ -110,8 +110,8 @@ std::vector<Picture> GltfPictures::read() {
         }
         if (size != sizes[i])
             m_file.note("picture-scaled",
-                        fmt::format("The picture of {} x {} pixels is drawn from one of {} x {}.", sizes[i].x,
-                                    sizes[i].y, size.x, size.y),
+                        fmt::format("The picture is scaled to {} x {} pixels from {} x {}.", sizes[i].x, sizes[i].y,
+                                    size.x, size.y),
                         where);
         for (const Note& note : pictures.back().notes) m_file.note(note.code, note.text, where);
         if (wanted.alpha == Alpha::ignored)

@@ -7,8 +7,8 @@
 
 namespace sheer {
 
-/// The pictures of a model that are in use, each once, or twice where one surface reads its alpha and another ignores
-/// it. The file outlives it. All functions throw AssetError.
+/// The pictures of a model that are in use, each once, or twice if one surface reads its alpha and another ignores it.
+/// The file outlives it. All functions throw AssetError.
 class GltfPictures {
   public:
     explicit GltfPictures(GltfFile& file) : m_file(file) {}
@@ -17,7 +17,7 @@ class GltfPictures {
     /// How a surface reads the texture that `info` (a material's baseColorTexture) refers to.
     PictureUse use(const GltfObject& info, Alpha alpha);
 
-    /// Decodes the pictures, of sizes that can lie side by side.
+    /// Decodes the pictures, in sizes that fit into the array textures.
     std::vector<Picture> read();
 
   private:

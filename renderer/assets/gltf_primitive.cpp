@@ -10,7 +10,7 @@ namespace {
 
 void expect_components(const GltfAccessor& accessor, int least, int most) {
     if (accessor.components() < least || accessor.components() > most)
-        throw AssetError(fmt::format("{} has {} numbers an element", accessor.what(), accessor.components()));
+        throw AssetError(fmt::format("{} has {} numbers per element", accessor.what(), accessor.components()));
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ GltfAccessor GltfPrimitive::find(const std::string& name) const {
     const std::string called = what() + ": " + name;
     if (!m_draco || !m_draco_ids->has(name.c_str())) return {m_file, m_attributes->needed_number(name.c_str()), called};
     const DracoMesh::Attribute& decoded = m_draco->attributes.at(m_draco_ids->needed_number(name.c_str()));
-    // The accessor says whether whole numbers stand for fractions.
+    // The accessor says whether whole numbers are fractions.
     bool normalized = false;
     if (m_attributes && m_attributes->has(name.c_str()))
         normalized =
@@ -59,7 +59,7 @@ std::optional<GltfAccessor> GltfPrimitive::attribute(const std::string& name, in
     GltfAccessor found = find(name);
     expect_components(found, least, most);
     if (const std::size_t vertices = positions().count(); found.count() != vertices)
-        throw AssetError(fmt::format("{} has {} elements, and POSITION {}", found.what(), found.count(), vertices));
+        throw AssetError(fmt::format("{} has {} elements, but POSITION has {}", found.what(), found.count(), vertices));
     return found;
 }
 
@@ -70,7 +70,7 @@ std::optional<GltfAccessor> GltfPrimitive::indices() const {
     expect_components(indices, 1, 1);
     const std::uint64_t type = indices.component_type();
     if (type != gltf_component::uint8 && type != gltf_component::uint16 && type != gltf_component::uint32)
-        throw AssetError(indices.what() + " must be whole numbers without a sign");
+        throw AssetError(indices.what() + " must be unsigned whole numbers");
     return indices;
 }
 
@@ -79,7 +79,8 @@ std::size_t GltfPrimitive::triangle_count() const {
     const auto listed = indices();
     const std::size_t corners = listed ? listed->count() : positions().count();
     if (m_mode == mode_triangles) {
-        if (corners % 3 != 0) throw AssetError(fmt::format("{}: {} corners are not whole triangles", what(), corners));
+        if (corners % 3 != 0)
+            throw AssetError(fmt::format("{}: the number of corners, {}, is not a multiple of 3", what(), corners));
         return corners / 3;
     }
     return corners < 3 ? 0 : corners - 2;

@@ -10,7 +10,7 @@
 
 namespace sheer {
 
-/// Triangles of one material in a mesh, whatever holds them: accessors or Draco's compression. The file outlives it.
+/// Triangles of one material in a mesh, stored in accessors or compressed by Draco. The file outlives it.
 /// All functions throw AssetError.
 class GltfPrimitive {
   public:
@@ -18,18 +18,18 @@ class GltfPrimitive {
 
     const std::string& what() const { return m_object.what(); }
     const GltfObject& object() const { return m_object; }
-    /// Points and lines are not.
+    /// False for points and lines.
     bool is_triangles() const { return m_mode >= mode_triangles; }
 
     bool has(const std::string& attribute) const;
-    /// With as many elements as there are positions; nothing where the primitive does not have it.
+    /// With as many elements as there are positions; nothing if the primitive does not have it.
     std::optional<GltfAccessor> attribute(const std::string& name, int least_components, int most_components) const;
     GltfAccessor positions() const;
 
-    /// That take memory already, as they were compressed.
+    /// Vertices that already take memory, because they were compressed.
     std::size_t decoded_vertices() const { return m_draco ? m_draco->vertex_count : 0; }
 
-    /// How many triangles there are, without taking memory for them.
+    /// How many triangles there are, without allocating memory for them.
     std::size_t triangle_count() const;
     /// Indices of vertices, three for each triangle, each within the positions. (glTF 2.0, section 3.7.2.1.)
     std::vector<std::uint32_t> corners() const;

@@ -9,7 +9,7 @@ namespace sheer {
 
 namespace {
 
-/// What stands in each pair of parentheses.
+/// The text in each pair of parentheses.
 std::vector<std::string_view> groups_in(std::string_view text) {
     std::vector<std::string_view> groups;
     while (true) {
@@ -29,8 +29,7 @@ glm::dvec3 numbers_of(const std::vector<std::string_view>& words, std::string_vi
 void check_spacing(const glm::dvec3& spacing, std::string_view field) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(spacing[axis] >= 1e-9 && spacing[axis] <= 1e9))
-            throw AssetError(
-                fmt::format("the NRRD field \"{}\" gives distances between voxels that cannot be used", field));
+            throw AssetError(fmt::format("the NRRD field \"{}\" has unusable distances between voxels", field));
 }
 
 bool is_left_handed(std::string_view space) {
@@ -38,8 +37,7 @@ bool is_left_handed(std::string_view space) {
     return name == "left-anterior-superior" || name == "las" || name == "3d-left-handed";
 }
 
-/// The axes of the space that lie nearest to the columns, which have the length 1, and are turned as they are: neither
-/// mirrored.
+/// The axes of the space that are nearest to the columns, which have the length 1, with the same handedness.
 std::array<VoxelAxis, 3> nearest_axes(const glm::dmat3& directions) {
     std::array<int, 3> order = {0, 1, 2};
     std::array<VoxelAxis, 3> best;
@@ -69,11 +67,12 @@ void note_tilt(const glm::dmat3& directions, const std::array<VoxelAxis, 3>& axe
     constexpr double degrees = 180 / 3.14159265358979, tolerance_deg = 0.5;
     const double tilt_deg = std::acos(std::min(least, 1.0)) * degrees;
     if (tilt_deg <= tolerance_deg) return;
-    add_note(notes, {"oblique-axes",
-                     fmt::format("The axes of the volume are turned against its space by up to {:.0f} degrees; it is "
-                                 "drawn along the nearest axes.",
-                                 std::ceil(tilt_deg)),
-                     ""});
+    add_note(notes,
+             {"oblique-axes",
+              fmt::format("The axes of the volume are rotated by up to {:.0f} degrees relative to its space; it is "
+                          "drawn along the nearest axes.",
+                          std::ceil(tilt_deg)),
+              ""});
 }
 
 void place_by_directions(std::string_view text, bool left_handed, VoxelLayout& layout, std::vector<Note>& notes) {
@@ -89,7 +88,7 @@ void place_by_directions(std::string_view text, bool left_handed, VoxelLayout& l
     check_spacing(layout.spacing, field);
     constexpr double flat = 1e-3;
     if (!(std::abs(glm::determinant(directions)) > flat))
-        throw AssetError("the NRRD field \"space directions\" gives three directions in one plane");
+        throw AssetError("the NRRD field \"space directions\" has three directions in one plane");
     layout.axes = nearest_axes(directions);
     note_tilt(directions, layout.axes, notes);
 }
@@ -100,7 +99,7 @@ void place_nrrd_axes(const NrrdAxisFields& fields, VoxelLayout& layout, std::vec
     const bool left_handed = fields.space && is_left_handed(*fields.space);
     if (left_handed)
         add_note(notes, {"left-handed-space",
-                         "The space of the volume is left-handed; its first axis is turned round, so that nothing is "
+                         "The space of the volume is left-handed; its first axis is reversed, so that nothing is "
                          "mirrored.",
                          ""});
     if (fields.space_directions) return place_by_directions(*fields.space_directions, left_handed, layout, notes);

@@ -25,7 +25,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(spaces) - begin + 1);
 }
 
-/// Fields by their names in lower case without spaces, as some have been spelt both with and without.
+/// Fields by their names in lower case without spaces, because some are spelled both with and without.
 using Fields = std::map<std::string, std::string_view>;
 
 class HeaderReader {
@@ -45,7 +45,7 @@ class HeaderReader {
         layout.size = size();
         check_volume_size(layout.size, layout.type);
         if (m_header.byte_skip < 0 && layout.encoding != VoxelEncoding::raw)
-            throw AssetError("the NRRD field \"byte skip\" is -1, which goes with the encoding raw alone");
+            throw AssetError("the NRRD field \"byte skip\" is -1, which is allowed only with the encoding raw");
         layout.big_endian = kind_of(layout.type).bytes > 1 && layout.encoding != VoxelEncoding::text && big_endian();
         place_nrrd_axes({field("space"), field("spacedirections"), field("spacings")}, layout, m_header.notes);
         add_notes();
@@ -53,7 +53,7 @@ class HeaderReader {
     }
 
   private:
-    /// "" at the blank line that ends a header, and at the end of a file that has none.
+    /// "" at the blank line that ends a header, and at the end of a file without one.
     std::string_view next_line() {
         const std::string_view searched = m_bytes.substr(0, max_header_bytes);
         const std::size_t found = searched.find('\n', m_position);
@@ -72,7 +72,7 @@ class HeaderReader {
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos)
             throw AssetError(
-                fmt::format("the header of the NRRD file has the line \"{}\", which is no field", printable(line)));
+                fmt::format("the header of the NRRD file has the line \"{}\", which is not a field", printable(line)));
         if (line.substr(colon).starts_with(":=")) return;
         std::string name = lower(line.substr(0, colon));
         std::erase(name, ' ');
@@ -95,7 +95,7 @@ class HeaderReader {
     void read_place() {
         if (const auto file = field("datafile")) {
             if (file->empty() || *file == "LIST" || file->starts_with("LIST ") || file->find('%') != file->npos)
-                throw AssetError("the NRRD file keeps its data in several other files; one is read");
+                throw AssetError("the NRRD file keeps its data in several other files; only one is supported");
             m_header.data_file = *file;
         }
         for (const auto& [name, least, skip] :
@@ -114,7 +114,7 @@ class HeaderReader {
             if (const std::string name = lower(kind); name != "domain" && name != "space" && name != "???")
                 throw AssetError(
                     fmt::format("the NRRD file has an axis of the kind \"{}\"; a volume of numbers has "
-                                "three axes of space",
+                                "three spatial axes",
                                 printable(kind)));
     }
 
@@ -151,7 +151,7 @@ class HeaderReader {
         const auto found = types.find(lower(name));
         if (found == types.end())
             throw AssetError(
-                fmt::format("the NRRD file has voxels of type \"{}\"; taken are whole numbers of 8 to 32 "
+                fmt::format("the NRRD file has voxels of type \"{}\"; supported are whole numbers of 8 to 32 "
                             "bits, float and double",
                             printable(name)));
         return found->second;
@@ -165,8 +165,9 @@ class HeaderReader {
         const std::string_view name = required("encoding");
         const auto found = encodings.find(lower(name));
         if (found == encodings.end())
-            throw AssetError(fmt::format(
-                "the NRRD file has the encoding \"{}\"; taken are raw, ascii, hex, gzip and bzip2", printable(name)));
+            throw AssetError(
+                fmt::format("the NRRD file has the encoding \"{}\"; supported are raw, ascii, hex, gzip and bzip2",
+                            printable(name)));
         return found->second;
     }
 
@@ -174,7 +175,7 @@ class HeaderReader {
         const std::string endian = lower(required("endian"));
         if (endian != "big" && endian != "little")
             throw AssetError(
-                fmt::format("the NRRD field \"endian\" is \"{}\", neither big nor little", printable(endian)));
+                fmt::format("the NRRD field \"endian\" must be big or little, not \"{}\"", printable(endian)));
         return endian == "big";
     }
 
@@ -187,14 +188,13 @@ class HeaderReader {
     void add_notes() {
         if (const auto centerings = field("centerings");
             centerings && lower(*centerings).find("node") != std::string::npos)
-            add_note(
-                m_header.notes,
-                {"node-centering-ignored",
-                 "The samples are said to lie at the corners of cells; they are drawn as the middles of voxels.", ""});
+            add_note(m_header.notes,
+                     {"node-centering-ignored",
+                      "The file places samples at the corners of cells; they are drawn as the middles of voxels.", ""});
         if ((field("axismins") || field("axismaxs")) && !field("spacedirections") && !field("spacings"))
             add_note(m_header.notes,
                      {"axis-ranges-ignored",
-                      "The fields \"axis mins\" and \"axis maxs\" are not read; the voxels are drawn as cubes.", ""});
+                      "The fields \"axis mins\" and \"axis maxs\" are ignored; the voxels are drawn as cubes.", ""});
     }
 
     std::string_view m_bytes;
@@ -224,7 +224,7 @@ void check_volume_size(const glm::ivec3& size, VoxelType type) {
     const auto count =
         static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
     if (count * voxel_bytes > max_volume_bytes)
-        throw AssetError(fmt::format("the volume of {} voxels takes {} MiB; at most {} are taken", text,
+        throw AssetError(fmt::format("the volume of {} voxels takes {} MiB; at most {} are allowed", text,
                                      (count * voxel_bytes) >> 20, max_volume_bytes >> 20));
 }
 

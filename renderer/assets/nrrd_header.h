@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/assets/voxel_layout.h"
-#include "renderer/notes.h"
+#include "renderer/core/notes.h"
 #include "renderer/scene/assets.h"
 
 namespace sheer {
@@ -14,16 +14,16 @@ bool is_nrrd(std::string_view bytes);
 
 struct NrrdHeader {
     VoxelLayout layout;
-    std::size_t data_begin = 0;  ///< byte, where the data is attached
-    std::string data_file;       ///< "" where the data is attached
+    std::size_t data_begin = 0;  ///< first byte, if the data is attached
+    std::string data_file;       ///< "" if the data is attached
     int line_skip = 0;           ///< lines before the data
     int byte_skip = 0;           ///< bytes before the voxels; -1: they are the last ones
-    std::vector<Note> notes;     ///< what of the header is read otherwise
+    std::vector<Note> notes;     ///< what was read differently from the header
 };
 /// Throws AssetError, see read_volume.
 NrrdHeader read_nrrd_header(std::string_view bytes);
 
-/// Throws AssetError for sides or a whole that are over the limits of read_volume.
+/// Throws AssetError if the sides or the total size exceed the limits of read_volume.
 void check_volume_size(const glm::ivec3& size, VoxelType type);
 
 }  // namespace sheer

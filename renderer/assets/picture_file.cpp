@@ -26,7 +26,7 @@ const char* reader_name(PictureFormat format) {
     return format == PictureFormat::jpeg ? "jpeg" : "openexr";
 }
 
-/// Where the channels of RGBA stand in the file; grey stands for all three colours.
+/// The places of the RGBA channels in the file; grey is used for all three colors.
 struct ChannelMap {
     int color[3];
     int alpha;  ///< -1 for none
@@ -79,11 +79,8 @@ class Decoder {
 
     PictureFacts facts() {
         if (m_clamped)
-            add_note(m_header.notes,
-                     {"values-clamped",
-                      "The picture has colours under 0 or alpha outside 0 to 1; they are taken as the nearest that "
-                      "can be drawn.",
-                      ""});
+            add_note(m_header.notes, {"values-clamped",
+                                      "The picture has colors below 0 or alpha outside 0 to 1; they are clamped.", ""});
         return {m_header, (m_channels.grey ? 1 : 3) + (m_channels.alpha >= 0), m_spec.format.basesize() == 1,
                 m_header.notes};
     }
@@ -91,7 +88,7 @@ class Decoder {
   private:
     static constexpr int rows_at_a_time = 256;
 
-    /// A line of OpenImageIO's without the name of the file, which is ours.
+    /// A line of OpenImageIO's message without the name of the file, which we chose.
     static std::string message_of(std::string_view line) {
         line = line.substr(0, line.find(" (\"picture\")"));
         constexpr std::string_view prefix = "JPEG error: ";
@@ -105,8 +102,8 @@ class Decoder {
                                      message_of(std::string_view(why).substr(0, why.find('\n')))));
     }
 
-    /// libjpeg fills up what is missing or damaged with grey and only warns of it. A few warnings tell of nothing that
-    /// is lost.
+    /// libjpeg fills missing or damaged parts with grey and only warns about it. A few of its warnings concern nothing
+    /// that is lost.
     void refuse_damage() {
         if (!m_input->has_error()) return;
         constexpr std::string_view harmless[] = {"extraneous bytes before marker", "JFIF revision number",
@@ -122,14 +119,14 @@ class Decoder {
         }
     }
 
-    /// Profiles are not applied, as values are blended as they are; that of sRGB would change nothing.
+    /// Profiles are not applied, because values are blended as they are; that of sRGB would change nothing.
     void note_profile() {
         if (m_spec.find_attribute("ICCProfile") == nullptr) return;
         const std::string name(m_spec.get_string_attribute("ICCProfile:profile_description"));
         if (name.find("sRGB") != std::string::npos) return;
         add_note(m_header.notes,
                  {"profile-ignored",
-                  fmt::format("The picture has the ICC profile \"{}\"; its values are taken as they are.",
+                  fmt::format("The picture has the ICC profile \"{}\"; its values are used as they are.",
                               printable(name, 80)),
                   ""});
     }
@@ -142,7 +139,7 @@ class Decoder {
                                    OIIO::TypeDesc::FLOAT, out);
     }
 
-    /// Puts a row of the file to where it lies within the picture; beside it the picture is transparent black.
+    /// Copies a row of the file to its place in the picture, which is transparent black elsewhere.
     void place(const float* in) {
         m_row.assign(static_cast<std::size_t>(m_width) * 4, 0.0f);
         const int left = m_spec.x - m_spec.full_x;
@@ -166,13 +163,13 @@ class Decoder {
     PictureHeader m_header;
     std::unique_ptr<OIIO::ImageInput> m_input;
     OIIO::ImageSpec m_spec;
-    int m_width = 0, m_height = 0;  ///< of the rows that are handed out
+    int m_width = 0, m_height = 0;  ///< of the rows that are passed on
     ChannelMap m_channels{};
     std::vector<float> m_row;
     bool m_clamped = false;
 };
 
-/// From the rows of the file to what is seen, as EXIF's orientation says.
+/// The picture turned according to its EXIF orientation.
 Image turned(Image stored, int orientation) {
     if (orientation == 1) return stored;
     const int width = stored.width_px, height = stored.height_px;
@@ -210,7 +207,8 @@ Picture read_picture(std::string_view bytes, int width_px, int height_px) {
     decoder.read([&](int y, const float* rgba) { scaler.add_row(y, rgba); });
     const PictureFacts facts = decoder.facts();
     Picture picture{turned(scaler.finish(), header.orientation), facts.eight_bit, facts.notes};
-    // Interpolation overshoots at edges, and what a 16-bit float cannot hold would become infinite on the device.
+    // Interpolation overshoots at edges, and values beyond the range of 16-bit floats would become infinite on the
+    // device.
     const float greatest = facts.eight_bit ? 1.0f : max_half;
     for (float& value : picture.image.rgba) value = std::min(value, greatest);
     return picture;

@@ -24,7 +24,7 @@ constexpr Signature picture_signatures[] = {{"\x89PNG\r\n\x1a\n"sv, read_png_hea
                                             {"\x76\x2f\x31\x01"sv, read_exr_header},
                                             {"RIFF"sv, read_webp_header}};
 
-/// Numbers of a TIFF file, in the order of bytes that it says. Zeros beyond its end.
+/// Numbers of a TIFF file, in the file's byte order. Zeros beyond its end.
 class TiffNumbers {
   public:
     explicit TiffNumbers(std::string_view bytes) : m_bytes(bytes), m_big(bytes.starts_with("MM")) {}
@@ -52,7 +52,7 @@ const char* name_of(PictureFormat format) {
 
 void check_picture_size(PictureFormat format, std::int64_t width_px, std::int64_t height_px) {
     if (width_px < 1 || height_px < 1 || width_px > max_picture_side_px || height_px > max_picture_side_px)
-        throw AssetError(fmt::format("the {} says that it has {} x {} pixels; a picture has 1 to {} a side",
+        throw AssetError(fmt::format("the {} says that it has {} x {} pixels; a picture may have 1 to {} a side",
                                      name_of(format), width_px, height_px, max_picture_side_px));
 }
 
@@ -73,8 +73,9 @@ void set_orientation(PictureHeader& header, int orientation) {
     if (orientation == 1) return;
     header.orientation = orientation;
     if (is_transposed(header)) std::swap(header.width_px, header.height_px);
-    add_note(header.notes, {"orientation-applied",
-                            fmt::format("The picture is turned as its EXIF orientation, {}, says.", orientation), ""});
+    add_note(header.notes,
+             {"orientation-applied",
+              fmt::format("The picture is turned according to its EXIF orientation, {}.", orientation), ""});
 }
 
 void note_chromaticities(PictureHeader& header, const Chromaticities& chromaticities) {
@@ -82,7 +83,7 @@ void note_chromaticities(PictureHeader& header, const Chromaticities& chromatici
     const auto same = [](double a, double b) { return std::abs(a - b) <= tolerance; };
     if (std::ranges::equal(chromaticities.xy, rec_709, same)) return;
     add_note(header.notes, {"chromaticities-ignored",
-                            "The picture's primaries or white are not those of Rec. 709; its values are taken as if "
+                            "The picture's primaries or white are not those of Rec. 709; its values are used as if "
                             "they were.",
                             ""});
 }
@@ -91,14 +92,13 @@ void note_trailing_bytes(PictureHeader& header, std::size_t count) {
     if (count == 0) return;
     add_note(header.notes,
              {"trailing-bytes",
-              fmt::format("{} bytes after the end of the {} are not read.", count, name_of(header.format)), ""});
+              fmt::format("{} bytes after the end of the {} are ignored.", count, name_of(header.format)), ""});
 }
 
 PictureHeader read_picture_header(std::string_view bytes) {
     for (const Signature& signature : picture_signatures)
         if (bytes.starts_with(signature.bytes)) return signature.read(bytes);
-    throw AssetError(
-        "the file is no PNG, JPEG or OpenEXR picture, nor a WebP: its first bytes are those of none of them");
+    throw AssetError("the file is not a PNG, JPEG, OpenEXR or WebP picture: its first bytes match none of them");
 }
 
 }  // namespace sheer

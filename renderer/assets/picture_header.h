@@ -2,7 +2,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/notes.h"
+#include "renderer/core/notes.h"
 #include "renderer/scene/assets.h"
 
 namespace sheer {
@@ -12,13 +12,13 @@ enum class PictureFormat { png, jpeg, exr, webp };
 /// "PNG", "JPEG", "OpenEXR file" or "WebP".
 const char* name_of(PictureFormat format);
 
-/// What a picture file says of itself before anything is decoded.
+/// What a picture file says about itself before anything is decoded.
 struct PictureHeader {
     PictureFormat format = PictureFormat::png;
     int width_px = 0;         ///< as it is seen: turned by its orientation, within its display window;
     int height_px = 0;        ///< 1..max_picture_side_px
     int orientation = 1;      ///< 1..8, EXIF's tag 0x0112; from 5 on rows of the file are seen as columns
-    std::vector<Note> notes;  ///< what of the file is not read, or read otherwise
+    std::vector<Note> notes;  ///< what is not read from the file, or read differently
 };
 
 inline constexpr int max_picture_side_px = 8192;
@@ -28,15 +28,14 @@ inline bool is_transposed(const PictureHeader& header) {
     return header.orientation >= 5;
 }
 
-/// Reads all of the file but its pixels by ourselves, since decoders believe what a header says and take the memory or
-/// the time for it, and since they fill up what is missing. Sources: PNG (ISO 15948, clauses 5, 10 and 11), JPEG
-/// (ITU-T T.81, annexes B and G), EXIF 2.3 (4.6.4), "OpenEXR File Layout", WebP
-/// (RFC 9649).
+/// Reads all of the file except its pixels with our own code, since decoders trust the header, allocate memory and
+/// spend time accordingly, and fill in what is missing. Sources: PNG (ISO 15948, clauses 5, 10 and 11), JPEG (ITU-T
+/// T.81, annexes B and G), EXIF 2.3 (4.6.4), "OpenEXR File Layout", WebP (RFC 9649).
 ///
-/// Throws AssetError for another format, a side that is 0 or over the limit, and a file that is cut off. For a PNG with
-/// a chunk whose checksum is wrong, or whose image data is damaged or too short. For a JPEG that is neither grey nor
-/// has three components, is lossless or hierarchical, or lacks scans or parts of them. For an OpenEXR file of several
-/// parts or of deep data, and one that has neither R, G and B nor Y outside of layers as halves or floats.
+/// Throws AssetError for another format, a side that is 0 or over the limit, and a file that is cut off; for a PNG with
+/// a wrong checksum, or with damaged or too little image data; for a JPEG that is neither grey nor has three
+/// components, is lossless or hierarchical, or lacks scans or parts of them; for an OpenEXR file with several parts or
+/// deep data, and for one without R, G and B, or Y, outside of layers as halves or floats.
 PictureHeader read_picture_header(std::string_view bytes);
 
 }  // namespace sheer

@@ -36,7 +36,7 @@ class ExrHeaderReader {
         const std::uint32_t version = m_reader.u32_little();
         if ((version & (deep | several_parts)) != 0)
             throw AssetError(
-                "the OpenEXR file has deep data or several parts; only flat pictures of one part are read");
+                "the OpenEXR file has deep data or several parts; only flat pictures with one part are supported");
         for (std::string_view name = m_reader.zero_ended_text(); !name.empty(); name = m_reader.zero_ended_text()) {
             m_reader.zero_ended_text();
             read_attribute(name, ByteReader(m_reader.take(m_reader.u32_little())));
@@ -87,8 +87,8 @@ class ExrHeaderReader {
         if (!shown.holds(*m_data_window))
             add_note(m_header.notes,
                      {"outside-display-window",
-                      fmt::format("The picture is the display window of {} x {} pixels; what the file holds beside it "
-                                  "is not read.",
+                      fmt::format("The picture is the display window of {} x {} pixels; pixels of the file outside it "
+                                  "are ignored.",
                                   shown.width(), shown.height()),
                       ""});
     }
@@ -98,23 +98,23 @@ class ExrHeaderReader {
     void use_channels() {
         if (m_sampled || has("RY") || has("BY"))
             throw AssetError(
-                "the OpenEXR file has luminance and chroma, or channels of fewer pixels; R, G and B of "
-                "every pixel, or Y alone, are read");
+                "the OpenEXR file has luminance and chroma, or subsampled channels; R, G and B of "
+                "every pixel, or Y alone, are supported");
         std::vector<std::string> used = {"R", "G", "B", "A"};
         if (!has("R") || !has("G") || !has("B")) used = {"Y", "A"};
         if (!has(used[0].c_str()))
             throw AssetError(
                 fmt::format("the OpenEXR file has the channels {}; R, G and B, or Y, outside of layers "
-                            "are read",
+                            "are supported",
                             fmt::join(first_names(m_names), ", ")));
         std::vector<std::string> unread;
         const auto is_used = [&](const std::string& name) { return std::ranges::find(used, name) != used.end(); };
         std::ranges::remove_copy_if(m_names, std::back_inserter(unread), is_used);
         if (std::ranges::any_of(m_whole_numbers, is_used))
-            throw AssetError("the OpenEXR file holds whole numbers; halves and floats are read");
+            throw AssetError("the OpenEXR file holds whole numbers; halves and floats are supported");
         if (!unread.empty())
             add_note(m_header.notes, {"channels-ignored",
-                                      fmt::format("Of the OpenEXR file's channels these are not read: {}.",
+                                      fmt::format("These channels of the OpenEXR file are ignored: {}.",
                                                   fmt::join(first_names(unread), ", ")),
                                       ""});
     }

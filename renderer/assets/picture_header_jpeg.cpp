@@ -20,7 +20,7 @@ bool is_frame(int marker) {
     return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
-/// The next marker; entropy-coded data, stuffed zeros and restart markers before it are passed.
+/// The next marker; entropy-coded data, stuffed zeros and restart markers before it are skipped.
 int next_marker(ByteReader& reader) {
     while (true) {
         reader.take_to('\xff');
@@ -31,7 +31,7 @@ int next_marker(ByteReader& reader) {
     }
 }
 
-/// What the scans leave to be told of a component: for each coefficient the bits that are still missing.
+/// What the scans still have to provide for a component: the missing bits of each coefficient.
 struct JpegComponent {
     static constexpr int unknown = 99;
     int id;
@@ -65,19 +65,21 @@ class JpegHeaderReader {
   private:
     /// Annex B.2.2.
     void read_frame(int marker, ByteReader segment) {
-        if (!m_components.empty()) throw AssetError("the JPEG has several frames; hierarchical ones are not read");
+        if (!m_components.empty()) throw AssetError("the JPEG has several frames; hierarchical ones are not supported");
         const int bits = segment.u8();
         const std::uint16_t height = segment.u16_big(), width = segment.u16_big();
         check_picture_size(PictureFormat::jpeg, width, height);
         m_header = {.format = PictureFormat::jpeg, .width_px = width, .height_px = height};
-        // The kinds of frames repeat, for arithmetic coding, from 0xc8 on.
+        // From 0xc8 on, the kinds of frames repeat for arithmetic coding.
         const int kind = (marker - 0xc0) % 8;
-        if (kind > 2) throw AssetError("the JPEG is lossless or hierarchical; baseline and progressive ones are read");
-        if (bits != 8) throw AssetError(fmt::format("the JPEG has {} bits a channel; 8 are read", bits));
+        if (kind > 2)
+            throw AssetError("the JPEG is lossless or hierarchical; baseline and progressive ones are supported");
+        if (bits != 8) throw AssetError(fmt::format("the JPEG has {} bits per channel; only 8 are supported", bits));
         m_progressive = kind == 2;
         const int components = segment.u8();
         if (components != 1 && components != 3)
-            throw AssetError(fmt::format("the JPEG has {} components; grey and RGB are read, CMYK is not", components));
+            throw AssetError(
+                fmt::format("the JPEG has {} components; grey and RGB are supported, CMYK is not", components));
         for (int i = 0; i < components; ++i) {
             m_components.push_back({segment.u8(), {}});
             m_components.back().missing_bits.fill(JpegComponent::unknown);
@@ -85,7 +87,7 @@ class JpegHeaderReader {
         }
     }
 
-    /// Annexes B.2.3 and G.1.1: a scan of a progressive picture tells a range of coefficients, down to a bit.
+    /// Annexes B.2.3 and G.1.1: a scan of a progressive picture gives a range of coefficients, down to a certain bit.
     void read_scan(ByteReader segment) {
         std::vector<int> ids(segment.u8());
         for (int& id : ids) {

@@ -19,7 +19,7 @@ constexpr std::size_t png_signature_bytes = 8;
     throw AssetError("the PNG cannot be decoded: " + why);
 }
 
-/// Counts what the IDAT chunks inflate to. libpng fills up rows with zeros and takes a wrong checksum.
+/// Counts what the IDAT chunks inflate to. libpng fills rows with zeros and accepts a wrong checksum.
 class PngData {
   public:
     /// `expected`: bytes of all rows with their filters.
@@ -46,7 +46,7 @@ class PngData {
         m_left_over |= m_stream.avail_in > 0;
     }
 
-    /// Returns whether there is more than the rows take.
+    /// Returns whether there is more data than the rows need.
     bool finish() const {
         if (m_found < m_expected || (m_status != Z_STREAM_END && m_found == m_expected))
             refuse_png("its image data ends too early");
@@ -103,7 +103,7 @@ class PngHeaderReader {
         const bool interlaced = reader.u8() != 0;
         constexpr int channels_of[] = {1, 0, 3, 1, 2, 0, 4};
         const int channels = type < 7 ? channels_of[type] : 0;
-        if (channels == 0 || depth > 16) refuse_png("there are no such pixels");
+        if (channels == 0 || depth > 16) refuse_png("PNG has no such pixel format");
         m_data.emplace(interlaced ? interlaced_bytes(channels * depth) : bytes_of(width, height, channels * depth));
     }
 
@@ -111,7 +111,7 @@ class PngHeaderReader {
         return width == 0 ? 0 : height * (1 + (width * static_cast<std::uint64_t>(bits) + 7) / 8);
     }
 
-    /// Adam7: where each pass begins and its steps, along x and y.
+    /// Adam7: the beginning and the steps of each pass, along x and y.
     std::uint64_t interlaced_bytes(int bits) const {
         constexpr int passes[7][4] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
                                       {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
@@ -142,7 +142,7 @@ class PngHeaderReader {
                      {"animation-ignored", "The PNG is animated; only its default picture is read.", ""});
     }
 
-    /// A profile or sRGB overrules the older chunks (clause 11.3.2). What a profile says is noted where it is read.
+    /// A profile or sRGB overrides the older chunks (clause 11.3.2). Profiles are noted where they are read.
     void note_colors() {
         if (m_srgb || m_profiled) return;
         if (m_chromaticities) note_chromaticities(m_header, *m_chromaticities);
@@ -150,7 +150,7 @@ class PngHeaderReader {
         if (m_gamma && (*m_gamma < usual - tolerance || *m_gamma > usual + tolerance))
             add_note(m_header.notes, {"gamma-ignored",
                                       fmt::format("The PNG is encoded with a gamma of {:.5g}, not that of sRGB; its "
-                                                  "values are taken as they are.",
+                                                  "values are used as they are.",
                                                   *m_gamma / 1e5),
                                       ""});
     }

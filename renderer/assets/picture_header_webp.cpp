@@ -26,11 +26,11 @@ PictureHeader read_webp_header(std::string_view bytes) {
     constexpr std::uint32_t side_mask = 0x3fff;
     ByteReader reader(bytes, 4);
     if (reader.u32_little() + std::size_t{8} > bytes.size()) throw AssetError("the WebP is cut off");
-    if (reader.take(4) != "WEBP") throw AssetError("the file is RIFF, but no WebP picture");
+    if (reader.take(4) != "WEBP") throw AssetError("the file is RIFF, but not a WebP picture");
     const std::string_view kind = reader.take(4);
     reader.skip(4);
     if (kind == "VP8X") {
-        if ((reader.u8() & animated) != 0) throw AssetError("the WebP is animated; only single pictures are read");
+        if ((reader.u8() & animated) != 0) throw AssetError("the WebP is animated; only single pictures are supported");
         reader.skip(3);
         const std::int64_t width = std::int64_t{u24_little(reader)} + 1, height = std::int64_t{u24_little(reader)} + 1;
         return webp_header(width, height);

@@ -19,18 +19,18 @@ namespace sheer {
 
 namespace {
 
-/// What is worked out from such numbers stays finite in floats.
+/// Results computed from such numbers stay finite as floats.
 constexpr double farthest_position = 1e15, farthest_uv = 65536;
 constexpr std::size_t max_uses = 100000;
 
-/// What turns normals when `world` moves points: the cofactors, which exist for flat transforms, too.
+/// The transform of normals when `world` transforms points: its cofactors, which also exist for singular transforms.
 glm::dmat3 normal_transform(const glm::dmat3& world) {
     const glm::dmat3 cofactors(glm::cross(world[1], world[2]), glm::cross(world[2], world[0]),
                                glm::cross(world[0], world[1]));
     return glm::determinant(world) < 0 ? -cofactors : cofactors;
 }
 
-/// Of length 1; 0 for one without a direction.
+/// The vector with length 1; 0 if it has no direction.
 glm::vec3 unit(const glm::dvec3& vector) {
     const double length = glm::length(vector);
     return length > 0 && std::isfinite(length) ? glm::vec3(vector / length) : glm::vec3(0);
@@ -42,15 +42,14 @@ glm::dvec3 position(const GltfAccessor& accessor, std::size_t element, const glm
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(at[axis]) <= farthest_position))
             throw AssetError(
-                fmt::format("{}: element {} lies farther out than {:g}", accessor.what(), element, farthest_position));
+                fmt::format("{}: element {} is farther out than {:g}", accessor.what(), element, farthest_position));
     return at;
 }
 
 glm::vec2 uv(const GltfAccessor& accessor, std::size_t element, const GltfUv& from) {
     const glm::dvec2 at = from({accessor.number(element, 0), accessor.number(element, 1)});
     if (!(std::max(std::abs(at.x), std::abs(at.y)) <= farthest_uv))
-        throw AssetError(
-            fmt::format("{}: element {} lies farther out than {:g}", accessor.what(), element, farthest_uv));
+        throw AssetError(fmt::format("{}: element {} is farther out than {:g}", accessor.what(), element, farthest_uv));
     return glm::vec2(at);
 }
 
@@ -110,13 +109,13 @@ class ModelReader {
             if (!primitive.is_triangles())
                 m_file.note("primitives-ignored", "Points and lines are not drawn.", object.where());
             if (object.has("targets") && !std::exchange(m_morph_noted, true))
-                m_file.note("morph-targets-ignored", "Morph targets are not read: meshes have their own shape.",
+                m_file.note("morph-targets-ignored", "Morph targets are ignored: meshes keep their basic shape.",
                             object.where());
         }
         return known->second;
     }
 
-    /// Takes no memory for the vertices yet.
+    /// Does not allocate memory for the vertices yet.
     void use_mesh(const GltfPlacement& placement) {
         for (const GltfPrimitive& primitive : primitives_of(placement)) {
             if (!primitive.is_triangles()) continue;
@@ -153,7 +152,7 @@ class ModelReader {
         ModelPart part;
         part.indices = use.primitive.corners();
         part.material = m_materials.use(use.primitive.object().whole_number("material"), use.primitive.what());
-        // A mirror turns the front to the back; what is the front in the file stays it.
+        // A mirrored mesh would show its back; the front in the file remains the front.
         if (glm::determinant(glm::dmat3(use.world)) < 0)
             for (std::size_t i = 0; i < part.indices.size(); i += 3)
                 std::swap(part.indices[i + 1], part.indices[i + 2]);
@@ -162,16 +161,16 @@ class ModelReader {
         m_model.parts.push_back(std::move(part));
     }
 
-    /// The texture coordinates that `picture` of the part's material goes by.
+    /// The texture coordinates that `picture` of the part's material uses.
     std::optional<GltfAccessor> uvs_of(const Use& use, const PictureUse& picture, const GltfUv& from) const {
         if (picture.picture < 0) return std::nullopt;
         const std::string name = fmt::format("TEXCOORD_{}", from.set);
         auto uvs = use.primitive.attribute(name, 2, 2);
-        if (!uvs) throw AssetError(fmt::format("{} has a texture and no {}", use.primitive.what(), name));
+        if (!uvs) throw AssetError(fmt::format("{} has a texture but no {}", use.primitive.what(), name));
         return uvs;
     }
 
-    /// Those that triangles use, each once.
+    /// Adds each vertex that triangles use, once.
     void add_vertices(const Use& use, ModelPart& part) const {
         const GltfAccessor positions = use.primitive.positions();
         const Material& material = m_materials.materials()[part.material];
@@ -205,9 +204,9 @@ class ModelReader {
             if (const GltfObject& root = m_file.root(); root.has(list) && !root.fields().at(list).empty())
                 m_file.note(code, text, list);
         };
-        note("animations", "animations-ignored", "Animations are not read: everything stands where the nodes put it.");
+        note("animations", "animations-ignored", "Animations are ignored: everything is where the nodes place it.");
         note("cameras", "cameras-ignored",
-             "The file's cameras are not read; the spec's field camera says where from the scene is seen.");
+             "The file's cameras are ignored; the spec's field camera says where the scene is seen from.");
     }
 
     GltfFile& m_file;
@@ -233,7 +232,7 @@ OtherFiles files_below(const std::filesystem::path& folder) {
         const std::filesystem::path root = std::filesystem::canonical(folder, error),
                                     file = error ? root : std::filesystem::canonical(root / name, error);
         if (error)
-            throw AssetError(fmt::format("the file needs another file, \"{:.80}\", which is not there: {}", name,
+            throw AssetError(fmt::format("the file needs another file, \"{:.80}\", which does not exist: {}", name,
                                          std::filesystem::absolute(folder / name).lexically_normal().string()));
         const auto [end, ignored] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
         if (end != root.end() || file == root)

@@ -1,6 +1,7 @@
 #include "renderer/assets/read_volume.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ namespace sheer {
 
 namespace {
 
-/// Values far outside of a range are held to this, which every later sum of them bears.
+/// Values far outside of a range are clamped to this, so that later sums do not overflow.
 constexpr double farthest = 1e6;
 
 /// Voxels in the order of the file.
@@ -64,7 +65,7 @@ void for_each_voxel(const StoredVoxels& stored, const glm::ivec3& scene_size, co
 Note range_note(const glm::dvec2& extent, const std::optional<glm::dvec2>& range) {
     if (range)
         return {"value-range",
-                fmt::format("Values from {} to {} become 0 to 1, as the field range says; the file has {} to {}.",
+                fmt::format("Values from {} to {} become 0 to 1, as set by the field range; the file has {} to {}.",
                             range->x, range->y, extent.x, extent.y),
                 ""};
     if (extent.x == extent.y) return {"value-range", fmt::format("All voxels are {}; they become 0.", extent.x), ""};
@@ -76,7 +77,7 @@ Note range_note(const glm::dvec2& extent, const std::optional<glm::dvec2>& range
 
 Volume make_volume(StoredVoxels stored, const std::optional<glm::dvec2>& wanted) {
     const glm::dvec2 extent = extent_of(stored);
-    // Where all are equal any width does, as they are 0 then.
+    // If all are equal any width will do, because they become 0.
     const glm::dvec2 range = wanted.value_or(
         extent.x < extent.y ? extent : glm::dvec2(extent.x, extent.x + std::max(1.0, std::abs(extent.x))));
     Volume volume;
@@ -95,7 +96,7 @@ Volume make_volume(StoredVoxels stored, const std::optional<glm::dvec2>& wanted)
         return volume;
     }
     volume.floats.resize(volume.voxel_count());
-    // Halves, since the span of doubles may be beyond them.
+    // Halved, since the span may overflow a double.
     const double half_span = range.y / 2 - range.x / 2;
     visit_voxel_type(stored.layout.type, [&]<typename Number>(Number) {
         for_each_voxel<Number>(stored, volume.size, [&](std::size_t place, Number number) {
@@ -117,13 +118,13 @@ VoxelLayout layout_of(const RawVolume& raw) {
 std::string_view without_lines(std::string_view data, int count) {
     for (; count > 0; --count) {
         const std::size_t end = data.find('\n');
-        if (end == std::string_view::npos) throw AssetError("the NRRD field \"line skip\" leaves no lines for voxels");
+        if (end == std::string_view::npos) throw AssetError("the NRRD field \"line skip\" skips all the lines");
         data.remove_prefix(end + 1);
     }
     return data;
 }
 
-/// Of a detached header. Throws AssetError.
+/// For a detached header. Throws AssetError.
 std::string data_file_of(const NrrdHeader& header, const DataFiles& data_files) {
     constexpr std::string_view what = "the NRRD file keeps its data in another file";
     if (!data_files)
@@ -152,7 +153,7 @@ Volume read_volume(std::string_view bytes, const VolumeOptions& options, const D
         return make_volume({layout, voxel_bytes(layout, bytes, 0), {}}, options.range);
     }
     if (!is_nrrd(bytes))
-        throw AssetError("the file is not an NRRD file; for another one \"raw\" must say what it holds");
+        throw AssetError("the file is not an NRRD file; for other files, \"raw\" must describe the contents");
     return make_volume(read_nrrd(bytes, data_files), options.range);
 }
 

@@ -43,8 +43,8 @@ template <typename Number>
 Number number_in(std::string_view word, std::string_view field) {
     Number number{};
     if (!read_number(word, number))
-        throw AssetError(
-            fmt::format("the NRRD field \"{}\" holds \"{}\", which is not such a number", field, printable(word)));
+        throw AssetError(fmt::format("the NRRD field \"{}\" holds \"{}\", which is not a valid number for it", field,
+                                     printable(word)));
     return number;
 }
 

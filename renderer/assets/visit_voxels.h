@@ -34,7 +34,7 @@ auto visit_voxel_type(VoxelType type, const Work& work) {
     throw std::logic_error("unknown type of voxel");
 }
 
-/// The number whose bytes stand at `bytes`.
+/// The number stored at `bytes`.
 template <typename Number>
 Number voxel_at(const char* bytes, bool big_endian) {
     char voxel[sizeof(Number)];

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::string_view white_space = " \t\r\n\v\f";
 
-/// Unpacks a stream that must hold `size` bytes, neither more nor fewer, so that no more memory is ever taken. `Codec`
-/// is one of those below; a stream may follow another one, as parallel packers write them.
+/// Unpacks a stream that must hold exactly `size` bytes, so that no more memory is ever used. `Codec` is one of those
+/// below; a stream may follow another one, as parallel packers write them.
 template <typename Codec>
 class Unpacker {
   public:
@@ -36,16 +36,16 @@ class Unpacker {
         const std::size_t more = done == size && !m_codec.ended ? step(&beyond, 1) : 0;
         if (more > 0 || (m_codec.ended && !m_bytes.empty()))
             throw AssetError(
-                fmt::format("the {} data holds more than the {} bytes that the sizes say", Codec::name, size));
+                fmt::format("the {} data holds more than the {} bytes required by the sizes", Codec::name, size));
         if (!m_codec.ended) throw AssetError(fmt::format("the {} data ends too early", Codec::name));
         if (done < size)
             throw AssetError(
-                fmt::format("the {} data holds {} bytes of voxels; the sizes say {}", Codec::name, done, size));
+                fmt::format("the {} data holds {} bytes of voxels, but the sizes require {}", Codec::name, done, size));
         return result;
     }
 
   private:
-    /// Until `size` bytes are there, the stream has ended, or it cannot go on. Returns how many there are.
+    /// Unpacks until there are `size` bytes, the stream has ended, or it cannot continue. Returns the number of bytes.
     std::size_t step(char* out, std::size_t size) {
         std::size_t done = 0;
         while (!m_codec.ended && done < size) {
@@ -62,7 +62,7 @@ class Unpacker {
     Codec m_codec;
 };
 
-/// Bytes taken and given.
+/// Bytes consumed and produced.
 using Step = std::pair<std::size_t, std::size_t>;
 
 class GzipCodec {
@@ -148,7 +148,7 @@ std::string from_hex(std::string_view text, std::size_t size) {
         if (white_space.find(c) != std::string_view::npos) continue;
         const int digit = hex_digit(c);
         if (digit < 0)
-            throw AssetError(fmt::format("the hex data holds \"{}\", which is no digit", printable({&c, 1})));
+            throw AssetError(fmt::format("the hex data holds \"{}\", which is not a digit", printable({&c, 1})));
         if (high >= 0) bytes += static_cast<char>(high << 4 | digit);
         high = high >= 0 ? -1 : digit;
     }
@@ -171,19 +171,20 @@ std::string from_text(const VoxelLayout& layout, std::string_view text, std::siz
             const bool fits = read_number(word, parsed) && (std::is_floating_point_v<Number> ||
                                                             static_cast<Parsed>(static_cast<Number>(parsed)) == parsed);
             if (!fits)
-                throw AssetError(
-                    fmt::format("the text holds \"{}\", which is no {}", printable(word), kind_of(layout.type).name));
+                throw AssetError(fmt::format("the text holds \"{}\", which is not of type {}", printable(word),
+                                             kind_of(layout.type).name));
             if (++found > count) throw AssetError(fmt::format("the text holds more than {} voxels", count));
             append_little_endian(bytes, static_cast<Number>(parsed));
             begin = end;
         }
-        if (found < count) throw AssetError(fmt::format("the text holds {} voxels; the sizes say {}", found, count));
+        if (found < count)
+            throw AssetError(fmt::format("the text holds {} voxels, but the sizes require {}", found, count));
         return bytes;
     });
 }
 
 std::string_view without_first(std::string_view data, std::size_t count) {
-    if (count > data.size()) throw AssetError("the NRRD field \"byte skip\" leaves no bytes for voxels");
+    if (count > data.size()) throw AssetError("the NRRD field \"byte skip\" leaves too few bytes for the voxels");
     return data.substr(count);
 }
 
@@ -213,8 +214,9 @@ std::string voxel_bytes(const VoxelLayout& layout, std::string_view data, int sk
             break;
     }
     if (bytes.size() != size)
-        throw AssetError(fmt::format("the file holds {} bytes of voxels; {} x {} x {} of type {} are {}", bytes.size(),
-                                     layout.size.x, layout.size.y, layout.size.z, kind_of(layout.type).name, size));
+        throw AssetError(fmt::format("the file holds {} bytes of voxels, but {} x {} x {} of type {} are {}",
+                                     bytes.size(), layout.size.x, layout.size.y, layout.size.z,
+                                     kind_of(layout.type).name, size));
     return bytes;
 }
 

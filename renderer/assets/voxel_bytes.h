@@ -6,9 +6,9 @@
 
 namespace sheer {
 
-/// The voxels' bytes in the order of the file, out of their encoding; text becomes bytes that are little-endian.
-/// `skip`: bytes before the first voxel, which a compressed stream has inside; -1: all but the last ones.
-/// Never takes more memory than the layout says. Throws AssetError for damaged data, and for too little or too much.
+/// The decoded bytes of the voxels in the order of the file; text becomes little-endian bytes.
+/// `skip`: bytes before the first voxel, in a compressed stream after decompression; -1: the voxels are the last bytes.
+/// Never uses more memory than the layout requires. Throws AssetError for damaged data, and for too little or too much.
 std::string voxel_bytes(const VoxelLayout& layout, std::string_view data, int skip);
 
 }  // namespace sheer

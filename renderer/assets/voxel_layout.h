@@ -23,13 +23,13 @@ inline const VoxelKind& kind_of(VoxelType type) {
 
 enum class VoxelEncoding { raw, text, hex, gzip, bzip2 };
 
-/// Where an axis of the file lies in the scene, whose x goes to the right, y up and z towards the usual camera.
+/// Where an axis of the file points in the scene, in which x goes right, y up and z towards the usual camera.
 struct VoxelAxis {
     int scene_axis = 0;
     bool reversed = false;
 };
 
-/// How voxels lie in bytes. The axes of the file: the first is the fastest.
+/// How voxels are stored. Of the file's axes, the first is the fastest.
 struct VoxelLayout {
     glm::ivec3 size{0};  ///< 1..max_volume_side each
     glm::dvec3 spacing{1};

@@ -8,14 +8,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
-#include "renderer/errors.h"
-#include "renderer/spec/names.h"
+#include "renderer/core/errors.h"
+#include "renderer/core/names.h"
 #include "renderer/spec/suites.h"
 #include "version.h"
 
@@ -53,10 +52,10 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
     return exit_code;
 }
 
-int exit_code_of(const nlohmann::json& report) {
-    for (const nlohmann::json& check : report["checks"])
-        if (check["outcome"] == "failed") return exit_check_failed;
-    return report["verdict"] == "failed" ? exit_render_failed : exit_ok;
+int exit_code_of(const report::Report& report) {
+    if (std::ranges::count(report.checks, report::CheckOutcome::failed, &report::Check::came_out) > 0)
+        return exit_check_failed;
+    return report.verdict == report::ReportVerdict::failed ? exit_render_failed : exit_ok;
 }
 
 int guarded(const std::function<int()>& action) {
@@ -84,16 +83,16 @@ void add_source_options(CLI::App& command, Source& source) {
     CLI::Option* spec = command.add_option("spec", source.spec, "The spec, a JSON file (see configs/specs)");
     CLI::Option* suite =
         command.add_option("--suite", source.suite, "Repeat a published measurement instead: see sheer suites");
-    command.add_option("--scale", source.scale, "Width and height of a suite's picture, times this")
+    command.add_option("--scale", source.scale, "Factor for width and height of a suite's picture")
         ->needs(suite)
         ->check(CLI::Range(0.01, 1.0));
-    command.add_option("--max-seconds", source.max_seconds, "Time for the rounds at each point of a suite, in s")
+    command.add_option("--max-seconds", source.max_seconds, "Time for the rounds at each point of a suite, in seconds")
         ->needs(suite);
     suite->excludes(spec);
 }
 
 Spec read_spec(const Source& source) {
-    if (source.suite.empty() && source.spec.empty()) throw UsageError("give a SPEC.json or a --suite");
+    if (source.suite.empty() && source.spec.empty()) throw UsageError("give either a SPEC.json or a --suite");
     if (source.suite.empty()) return load_spec(source.spec);
     const Suite* suite = find_suite(source.suite);
     if (!suite)
@@ -147,7 +146,7 @@ void ProgressLine::show_bar(double fraction, const std::string& stage) {
     m_shown = true;
 }
 
-/// Stages are told as "count 16: timing round 3 of 10"; the first word after the point says of which kind they are.
+/// Stages look like "count 16: timing round 3 of 10"; the first word after the point is the kind of stage.
 void ProgressLine::show_line(double fraction, const std::string& stage) {
     const std::size_t colon = stage.rfind(": ");
     const std::string point = colon == std::string::npos ? "" : stage.substr(0, colon);
@@ -160,22 +159,6 @@ void ProgressLine::show_line(double fraction, const std::string& stage) {
 
 void clear_progress_line() {
     if (ProgressLine::stderr_is_terminal()) fmt::print(stderr, "\r\033[K");
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    errno = 0;
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw WriteError(errno == 0 ? EIO : errno, path.string());
-}
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw std::runtime_error("cannot read " + path.string());
-    return text.str();
 }
 
 }  // namespace sheer::cli

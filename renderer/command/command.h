@@ -3,40 +3,34 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 
+#include "renderer/core/exit_codes.h"
 #include "renderer/gl/context.h"
+#include "renderer/results/report.h"
 #include "renderer/spec/spec.h"
 
 // What `sheer` and `sheer-bench` share on the command line.
 namespace sheer::cli {
 
-// Exit codes of the programs.
-inline constexpr int exit_ok = 0;
-inline constexpr int exit_check_failed = 1;
-inline constexpr int exit_bad_spec = 2;
-inline constexpr int exit_render_failed = 3;
-inline constexpr int exit_no_server = 4;
-
-/// The log goes to stderr, so that stdout is the program's own; SPDLOG_LEVEL=info says more.
+/// Sends the log to stderr, so that stdout has only the program's output; SPDLOG_LEVEL=info logs more.
 void log_to_stderr(const std::string& program);
 
-/// Adds --version, reads the command line, which runs what it names, and returns `exit_code` as that left it, or
-/// exit_bad_spec for a wrong command line, of which `on_wrong` is told.
+/// Adds --version, parses the command line, which runs the command, and returns `exit_code` as the command left it, or
+/// exit_bad_spec for a wrong command line, which is reported to `on_wrong`.
 int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
                      const std::function<void(const std::string& message)>& on_wrong = {});
 
-/// What was asked for cannot be done as asked. Exit code 2.
+/// The request cannot be carried out as given. Exit code 2.
 class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Of a report: exit_check_failed where a check failed, else exit_render_failed where a method or the reference did.
-int exit_code_of(const nlohmann::json& report);
+/// For a report: exit_check_failed if a check failed, otherwise exit_render_failed if a method or the reference failed.
+int exit_code_of(const report::Report& report);
 
 /// Runs `action` and turns what it throws into a message on stderr and an exit code.
 int guarded(const std::function<int()>& action);
@@ -44,7 +38,7 @@ int guarded(const std::function<int()>& action);
 /// Adds --device and --without-workaround to `command`.
 void add_device_options(CLI::App& command, gl::ContextRequest& request);
 
-/// What is to be compared: a spec's file, or a published measurement to repeat.
+/// What to compare: the file of a spec, or a published measurement to repeat.
 struct Source {
     std::string spec, suite;
     double scale = 1;
@@ -54,16 +48,16 @@ struct Source {
 /// Adds SPEC.json, --suite, --scale and --max-seconds to `command`.
 void add_source_options(CLI::App& command, Source& source);
 
-/// Throws SpecError, also for a file that cannot be read, naming it; UsageError if there is no such suite.
+/// Throws SpecError, also for an unreadable file, naming it; UsageError if there is no such suite.
 Spec read_spec(const Source& source);
-/// Throws SpecError, also for a file that cannot be read, naming it.
+/// Throws SpecError, also for an unreadable file, naming it.
 Spec load_spec(const std::string& path);
 
-/// The command that repeats a comparison: `command` and its source, as words of a shell.
+/// The shell command that repeats a comparison: `command` and its source.
 std::string rerun_command(const std::string& command, const Source& source, const gl::ContextRequest& request);
 
-/// How far a comparison is, on stderr. On a terminal a bar, from the second second on; in a log a line for each stage
-/// of each point, not for each round or method.
+/// Shows the progress of a comparison on stderr: on a terminal as a bar, after the first second; in a log as a line for
+/// each stage of each point, not for each round or method.
 class ProgressLine {
   public:
     explicit ProgressLine(bool is_terminal = stderr_is_terminal());
@@ -82,15 +76,10 @@ class ProgressLine {
     bool m_terminal;
     bool m_shown = false;
     std::string m_point;
-    std::set<std::string> m_kinds;  ///< of stages that this point has had
+    std::set<std::string> m_kinds;  ///< of the stages so far at this point
 };
 
 /// Removes a bar that another thread may have drawn.
 void clear_progress_line();
-
-/// Throws std::runtime_error naming the file.
-void write_text(const std::filesystem::path& path, const std::string& text);
-/// Throws std::runtime_error naming the file.
-std::string read_text(const std::filesystem::path& path);
 
 }  // namespace sheer::cli

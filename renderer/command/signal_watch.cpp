@@ -13,11 +13,11 @@
 #include <exception>
 #include <system_error>
 
+#include "renderer/core/exit_codes.h"
+
 namespace sheer::cli {
 
 namespace {
-
-constexpr int exit_by_signal = 128;
 
 struct Watched {
     int signal;
@@ -72,7 +72,7 @@ void SignalWatch::wait() {
         fmt::print(stderr, "sheer: {}\n", error.what());
     }
     std::fflush(nullptr);
-    // Other threads still render; nothing of theirs is to be torn down.
+    // Other threads are still rendering; nothing they use may be destroyed.
     _exit(exit_by_signal + signal);
 }
 

@@ -6,20 +6,20 @@
 
 namespace sheer::cli {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP wait until what is due is written: a thread of its own takes the signal,
-/// locks `busy`, calls `conclude`, and ends the process with 128 plus the signal's number, whatever the other threads
-/// are at. A signal that is ignored, as under nohup, stays ignored.
+/// While it exists, SIGINT, SIGTERM and SIGHUP do not end the process until output has been written: a separate thread
+/// takes the signal, locks `busy`, calls `conclude`, and ends the process with 128 plus the signal's number, whatever
+/// the other threads are doing. A signal that is ignored, as under nohup, stays ignored.
 ///
-/// Make it before any other thread: threads inherit which signals they leave to this one.
+/// Create it before any other thread: threads inherit the set of signals that they leave to this one.
 class SignalWatch {
   public:
-    /// Throws std::system_error. `busy` outlives it; hold it while what `conclude` uses is being changed.
+    /// Throws std::system_error. `busy` outlives it; hold it while changing anything that `conclude` uses.
     SignalWatch(std::mutex& busy, std::function<void(int signal)> conclude);
     SignalWatch(const SignalWatch&) = delete;
     SignalWatch& operator=(const SignalWatch&) = delete;
     ~SignalWatch();
 
-    /// With `busy` held: everything is written, and nothing is to be concluded any more.
+    /// Call it with `busy` held: everything has been written, so `conclude` is not called any more.
     void finish() { m_finished = true; }
 
   private:

@@ -8,16 +8,16 @@ namespace sheer {
 /// Encodes the pictures of a report: levels as PNG, floats and counts as OpenEXR.
 class BlobSink : public PictureSink {
   public:
-    nlohmann::json take(const Image8& picture, const std::string& name) override;
-    nlohmann::json take(const Image& picture, const std::string& name) override;
-    nlohmann::json take(const PixelCounts& counts, const std::string& name) override;
+    report::Picture take(const Image8& picture, const std::string& name) override;
+    report::Picture take(const Image& picture, const std::string& name) override;
+    report::Picture take(const PixelCounts& counts, const std::string& name) override;
 
-    /// Keeps `bytes` and returns the URL that the report gives for them. `name` is unique in the report.
+    /// Keeps `bytes` and returns their URL for the report. `name` is unique in the report.
     virtual std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
                             const std::string& media_type) = 0;
 
   private:
-    nlohmann::json put_encoded(const std::string& bytes, const std::string& name, const std::string& media_type);
+    report::Picture put_encoded(const std::string& bytes, const std::string& name, const std::string& media_type);
 };
 
 /// Pictures as files with readable names below a folder: `sheer compare --out`.
@@ -31,15 +31,16 @@ class FolderSink : public BlobSink {
     std::filesystem::path m_folder;
 };
 
-/// Pictures as files named by their SHA-256, with the URL that the service serves them at.
+/// Pictures as files named by their SHA-256, to be served at `url`/<sha256>.
 class ContentSink : public BlobSink {
   public:
-    explicit ContentSink(std::filesystem::path folder);
+    ContentSink(std::filesystem::path folder, std::string url);
     std::string put(const std::string& sha256, const std::string& bytes, const std::string& name,
                     const std::string& media_type) override;
 
   private:
     std::filesystem::path m_folder;
+    std::string m_url;
 };
 
 }  // namespace sheer

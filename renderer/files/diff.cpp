@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "renderer/files/diff_parts.h"
-#include "renderer/report/measured.h"
+#include "renderer/files/report_document.h"
 
 namespace sheer {
 
@@ -13,178 +13,171 @@ using nlohmann::json;
 
 namespace {
 
-json text_at(const json& report, const char* pointer) {
-    const json::json_pointer place(pointer);
-    return report.contains(place) ? report[place] : json();
+std::optional<std::string> text_in(const json& spec, const char* name) {
+    return spec.contains(name) ? std::optional(spec[name].get<std::string>()) : std::nullopt;
 }
 
-json side_json(const json& report) {
-    return {{"id", text_at(report, "/id")},
-            {"title", text_at(report, "/spec/title")},
-            {"created_at", text_at(report, "/created_at")},
-            {"version", text_at(report, "/provenance/version")},
-            {"commit", text_at(report, "/provenance/commit")},
-            {"renderer", text_at(report, "/device/renderer")},
-            {"baseline", text_at(report, "/spec/baseline")}};
+diff::Side side_of(const report::Report& report) {
+    return {.id = report.id,
+            .title = text_in(report.spec, "title"),
+            .created_at = report.created_at,
+            .version = report.provenance.version,
+            .commit = report.provenance.commit,
+            .renderer = report.device ? report.device->renderer : "",
+            .baseline = text_in(report.spec, "baseline")};
 }
 
-json differences_json(const std::vector<Difference>& differences) {
-    json all = json::array();
-    for (const Difference& one : differences) all.push_back({{"pointer", one.pointer}, {"a", one.a}, {"b", one.b}});
-    return all;
+/// Null if there is no run at this point.
+const report::Run* run_at(const report::Report& report, const report::Point& point) {
+    const auto found = std::ranges::find(report.runs, point, &report::Run::point);
+    return found == report.runs.end() ? nullptr : &*found;
 }
 
-const json* run_at(const json& report, const json& point) {
-    const json& runs = report.at("runs");
-    const auto found = std::ranges::find_if(runs, [&](const json& run) { return run.at("point") == point; });
-    return found == runs.end() ? nullptr : &*found;
-}
-
-/// Methods and points that `of` has and `other` has not.
-json only_in(const json& of, const json& other) {
-    json methods = json::array(), points = json::array();
-    const json& others = other.at("spec").at("methods");
-    for (const json& method : of.at("spec").at("methods"))
-        if (std::ranges::none_of(others, [&](const json& one) { return one.at("label") == method.at("label"); }))
-            methods.push_back(method.at("label"));
-    for (const json& run : of.at("runs"))
-        if (!run_at(other, run.at("point"))) points.push_back(run.at("point"));
-    return {{"methods", methods}, {"points", points}};
-}
-
-int side_px(const json& report, const json& point, const std::string& name) {
-    const std::string swept = "/image/" + name;
-    return point.contains(swept) ? point[swept].get<int>() : report.at("spec").at("image").at(name).get<int>();
+/// Methods and points that `of` has and `other` does not.
+diff::OnlyIn only_in(const report::Report& of, const report::Report& other) {
+    diff::OnlyIn only;
+    const std::vector<std::string> others = method_labels(other);
+    for (const std::string& label : method_labels(of))
+        if (std::ranges::find(others, label) == others.end()) only.methods.push_back(label);
+    for (const report::Run& run : of.runs)
+        if (!run_at(other, run.point)) only.points.push_back(run.point);
+    return only;
 }
 
 /// One run of both reports, method by method.
-class RunDiff {
+class RunComparison {
   public:
-    /// `report` is either of the two; their pictures have the same size.
-    RunDiff(const json& report, const RunPair& runs, PictureDiff& pictures, std::size_t index)
-        : m_runs(runs),
-          m_pictures(pictures),
-          m_index(index),
-          m_width_px(side_px(report, runs.a.at("point"), "width")),
-          m_height_px(side_px(report, runs.a.at("point"), "height")) {}
+    /// The pictures of both have this size.
+    RunComparison(const RunPair& runs, std::array<int, 2> size_px, PictureComparison& pictures, std::size_t index)
+        : m_runs(runs), m_size_px{size_px[0], size_px[1]}, m_pictures(pictures), m_index(index) {}
 
-    json write() {
+    diff::RunDiff compare() {
         m_runs.compared = 0;
-        for (const json& result : m_runs.a.at("results"))
-            if (const json* other = other_result(result)) m_runs.compared += ran(result) && ran(*other);
-        json results = json::array();
-        for (const json& result : m_runs.a.at("results"))
-            if (const json* other = other_result(result))
-                results.push_back(result_json(result, *other, results.size()));
-        return {{"point", m_runs.a.at("point")},
-                {"image", {{"width", m_width_px}, {"height", m_height_px}}},
-                {"compared", m_runs.compared},
-                {"reference", reference_json()},
-                {"results", results}};
+        for (const report::Result& result : m_runs.a.results)
+            if (const report::Result* other = m_runs.b.find(result.label))
+                m_runs.compared += ran(result) && ran(*other);
+        diff::RunDiff run;
+        run.point = m_runs.a.point;
+        run.image = m_size_px;
+        run.compared = m_runs.compared;
+        run.reference = reference();
+        for (const report::Result& one : m_runs.a.results)
+            if (const report::Result* other = m_runs.b.find(one.label))
+                run.results.push_back(result(one, *other, run.results.size()));
+        return run;
     }
 
   private:
-    static bool ran(const json& result) { return result.at("status") == "ok"; }
+    static bool ran(const report::Result& result) { return result.status == report::ResultStatus::ok; }
 
-    const json* other_result(const json& result) const {
-        return find_result(m_runs.b, result.at("label").get<std::string>());
+    static std::optional<std::string> reason(const report::Result& result) {
+        return result.reason.empty() ? std::nullopt : std::optional(result.reason);
     }
 
-    json picture_json(const json& a, const json& b, const std::string& name) {
-        return m_pictures.compare(a.at("images"), b.at("images"), m_width_px, m_height_px,
-                                  fmt::format("{:03}-{}", m_index + 1, name));
+    std::optional<diff::PictureDiff> picture(const report::Pictures& a, const report::Pictures& b,
+                                             const std::string& name) {
+        return m_pictures.compare(a, b, m_size_px, fmt::format("{:03}-{}", m_index + 1, name));
     }
 
-    json reference_json() {
-        const json &a = m_runs.a.at("reference"), &b = m_runs.b.at("reference");
-        return {{"method", {{"a", a.at("method")}, {"b", b.at("method")}}},
-                {"picture", picture_json(a, b, "reference")}};
+    diff::ReferenceDiff reference() {
+        const report::Reference &a = m_runs.a.reference, &b = m_runs.b.reference;
+        return {.method = {a.method, b.method}, .picture = picture(a.images, b.images, "reference")};
     }
 
-    json result_json(const json& a, const json& b, std::size_t index) {
-        json result = {{"label", a.at("label")},
-                       {"method", a.at("method")},
-                       {"status", {{"a", a.at("status")}, {"b", b.at("status")}}},
-                       {"picture", nullptr},
-                       {"time", nullptr}};
+    diff::ResultDiff result(const report::Result& a, const report::Result& b, std::size_t index) {
+        diff::ResultDiff result;
+        result.label = a.label;
+        result.method = a.method;
+        result.status = {a.status, b.status};
         if (ran(a) && ran(b)) {
-            result["picture"] = picture_json(a, b, std::to_string(index + 1));
-            result["time"] = time_diff(m_runs, a, b);
+            result.picture = picture(a.images, b.images, std::to_string(index + 1));
+            result.time = time_diff(m_runs, a, b);
         } else {
-            result["reason"] = {{"a", a.at("reason")}, {"b", b.at("reason")}};
+            result.reason = diff::Reasons{reason(a), reason(b)};
         }
         return result;
     }
 
     RunPair m_runs;
-    PictureDiff& m_pictures;
+    diff::Size m_size_px;
+    PictureComparison& m_pictures;
     std::size_t m_index;
-    int m_width_px, m_height_px;
 };
 
-json summary_of(const json& runs) {
-    json pictures = {{"identical", 0}, {"different", 0}, {"not examined", 0}};
-    json times = {{"faster", 0}, {"slower", 0}, {"not resolved", 0}};
-    int changed = 0;
-    const auto count = [](json& counts, const json& verdict) {
-        json& number = counts[verdict.get<std::string>()];
-        number = number.get<int>() + 1;
-    };
-    for (const json& run : runs) {
-        if (run["reference"]["picture"].is_object()) count(pictures, run["reference"]["picture"]["verdict"]);
-        for (const json& result : run["results"]) {
-            if (result["picture"].is_object()) count(pictures, result["picture"]["verdict"]);
-            if (result["time"].is_object()) count(times, result["time"]["verdict"]);
-            changed += result["status"]["a"] != result["status"]["b"];
-        }
-    }
-    return {{"pictures", pictures}, {"times", times}, {"statuses_changed", changed}};
+void count(const std::optional<diff::PictureDiff>& picture, diff::PictureCounts& counts) {
+    if (!picture) return;
+    counts.identical += picture->verdict == diff::PictureVerdict::identical;
+    counts.different += picture->verdict == diff::PictureVerdict::different;
+    counts.not_examined += picture->verdict == diff::PictureVerdict::not_examined;
 }
 
-void check_done(const json& report, const char* which) {
-    if (report.at("status") == "done") return;
+void count(const std::optional<diff::TimeDiff>& time, diff::TimeCounts& counts) {
+    if (!time) return;
+    counts.faster += time->verdict == report::SpeedVerdict::faster;
+    counts.slower += time->verdict == report::SpeedVerdict::slower;
+    counts.not_resolved += time->verdict == report::SpeedVerdict::not_resolved;
+}
+
+diff::Summary summary_of(const std::vector<diff::RunDiff>& runs) {
+    diff::Summary summary;
+    for (const diff::RunDiff& run : runs) {
+        count(run.reference.picture, summary.pictures);
+        for (const diff::ResultDiff& result : run.results) {
+            count(result.picture, summary.pictures);
+            count(result.time, summary.times);
+            summary.statuses_changed += result.status.a != result.status.b;
+        }
+    }
+    return summary;
+}
+
+void check_done(const report::Report& report, const char* which) {
+    if (report.status == report::Status::done) return;
     throw SpecError(std::vector<FieldError>{
-        {"/status", fmt::format("the {} report is not done: it is {}", which, report["status"].get<std::string>())}});
+        {"/status", fmt::format("the {} report is not done: it is {}", which, word_of(report.status))}});
 }
 
 /// The runs that both have.
-std::vector<RunPair> pairs_of(const json& a, const json& b) {
+std::vector<RunPair> pairs_of(const report::Report& a, const report::Report& b) {
     const bool same_device = is_same_device(a, b);
     std::vector<RunPair> pairs;
-    for (const json& run : a.at("runs"))
-        if (const json* other = run_at(b, run.at("point")))
-            pairs.push_back({run, *other, a.at("spec").at("baseline"), b.at("spec").at("baseline"), same_device, 1});
+    for (const report::Run& run : a.runs)
+        if (const report::Run* other = run_at(b, run.point))
+            pairs.push_back({run, *other, a.baseline(), b.baseline(), same_device, 1});
     if (pairs.empty()) throw SpecError(std::vector<FieldError>{{"/spec/sweep", "the reports have no point in common"}});
     return pairs;
 }
 
 }  // namespace
 
-json diff_reports(const DiffSide& a, const DiffSide& b, const DiffOptions& options) {
+diff::Diff diff_reports(const DiffSide& a, const DiffSide& b, const DiffOptions& options) {
     check_done(a.report, "first");
     check_done(b.report, "second");
-    const std::vector<Difference> differences = report_differences(a.report, b.report);
-    if (const auto conflicts = spec_conflicts(a.report, b.report, differences); !conflicts.empty())
-        throw SpecError(conflicts);
+    std::vector<FieldDifference> differences = report_differences(a.report, b.report);
+    check_specs(a.report, b.report, options.allow, differences);
     const std::vector<RunPair> pairs = pairs_of(a.report, b.report);
     if (options.run && *options.run >= pairs.size())
         throw SpecError(std::vector<FieldError>{{"/run", fmt::format("must be less than {}", pairs.size())}});
-    PictureDiff pictures(a, b, options);
-    json runs = json::array();
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (!options.run || *options.run == i) runs.push_back(RunDiff(a.report, pairs[i], pictures, i).write());
-    return {{"a", side_json(a.report)},
-            {"b", side_json(b.report)},
-            {"same_device", is_same_device(a.report, b.report)},
-            {"differences", differences_json(differences)},
-            {"only_in", {{"a", only_in(a.report, b.report)}, {"b", only_in(b.report, a.report)}}},
-            {"summary", summary_of(runs)},
-            {"runs", runs}};
+    PictureComparison pictures(a, b, options);
+    diff::Diff diff;
+    diff.a = side_of(a.report);
+    diff.b = side_of(b.report);
+    diff.same_device = is_same_device(a.report, b.report);
+    diff.differences.assign(differences.begin(), differences.end());
+    diff.only_in = {only_in(a.report, b.report), only_in(b.report, a.report)};
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (options.run && *options.run != i) continue;
+        // The sizes are not in conflict, so both reports have the same.
+        const std::array<int, 2> size_px = picture_size_px(a.report, pairs[i].a.point);
+        diff.runs.push_back(RunComparison(pairs[i], size_px, pictures, i).compare());
+    }
+    diff.summary = summary_of(diff.runs);
+    return diff;
 }
 
-bool is_worse(const json& diff) {
-    const json& summary = diff.at("summary");
-    return summary["pictures"]["different"] > 0 || summary["times"]["slower"] > 0 || summary["statuses_changed"] > 0;
+bool is_worse(const diff::Diff& diff) {
+    const diff::Summary& summary = diff.summary;
+    return summary.pictures.different > 0 || summary.times.slower > 0 || summary.statuses_changed > 0;
 }
 
 }  // namespace sheer

@@ -1,40 +1,56 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "renderer/core/errors.h"
 #include "renderer/files/blob_sink.h"
-#include "renderer/report/report.h"
+#include "renderer/files/diff_types.h"
+#include "renderer/results/report.h"
 
 namespace sheer {
 
-/// One of two reports that are held against each other.
+/// One of two reports that are compared with each other.
 struct DiffSide {
-    const nlohmann::json& report;
-    /// The bytes of a picture by its image object; throws std::exception if they cannot be had.
-    std::function<std::string(const nlohmann::json& image)> read_picture;
+    const report::Report& report;
+    report::PictureReader read_picture;
 };
 
 struct DiffOptions {
-    BlobSink* pictures = nullptr;    ///< takes the FLIP maps; null: there are none
-    std::optional<std::size_t> run;  ///< only this one of the runs that both have, from 0
-    /// Pixels of pictures that are decoded; those beyond are "not examined".
+    BlobSink* pictures = nullptr;    ///< takes the FLIP maps; null: none are made
+    std::optional<std::size_t> run;  ///< only this one of the common runs, from 0
+    /// Limit on decoded pixels; further pictures are "not examined".
     std::uint64_t max_pixels = std::numeric_limits<std::uint64_t>::max();
+    /// JSON pointers into the spec, such as /scene/shading/glsl; methods are counted as in the first report. The fields
+    /// there and everything below may differ between the two specs.
+    std::vector<std::string> allow;
+};
+
+/// The two specs describe different pictures.
+class DiffConflict : public SpecError {
+  public:
+    DiffConflict(std::vector<FieldError> errors, std::vector<std::string> allowable)
+        : SpecError(std::move(errors)), m_allowable(std::move(allowable)) {}
+    /// Pointers that would have to be allowed for the reports to be compared; empty if allowing would not help.
+    const std::vector<std::string>& allowable() const { return m_allowable; }
+
+  private:
+    std::vector<std::string> m_allowable;
 };
 
 /// What changed from report `a` to report `b` of one spec, in pictures and in time; docs/measuring.md says how times
-/// are judged, docs/service.md what the fields are. Runs are matched by their points, methods by their labels.
-/// Throws SpecError that names every field by JSON pointer where a report is not done or the two specs describe
-/// different pictures, and if there is no such run; nlohmann's exceptions if one is no report.
-nlohmann::json diff_reports(const DiffSide& a, const DiffSide& b, const DiffOptions& options = {});
+/// are judged. Runs are matched by their points, methods by their labels. Throws DiffConflict with every field, by JSON
+/// pointer, if the two specs describe different pictures and `options.allow` does not allow it; SpecError if a report
+/// is not done, there is no such run or one of `options.allow` is not a JSON pointer; DocumentError or nlohmann's
+/// exceptions if the spec of a report is not one: check_comparable() finds that.
+diff::Diff diff_reports(const DiffSide& a, const DiffSide& b, const DiffOptions& options = {});
 
-/// Whether something got worse: a picture or a status that changed, or a method that is slower.
-bool is_worse(const nlohmann::json& diff);
+/// Whether something got worse: a picture or a status changed, or a method is slower.
+bool is_worse(const diff::Diff& diff);
 
-/// A table for the terminal: a line a method.
-std::string diff_table(const nlohmann::json& diff);
+/// A table for the terminal, with a line for each method.
+std::string diff_table(const diff::Diff& diff);
 
 }  // namespace sheer

@@ -4,13 +4,13 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "renderer/core/sha256.h"
 #include "renderer/files/diff_parts.h"
 #include "renderer/files/picture_file.h"
-#include "renderer/metrics/metric.h"
+#include "renderer/files/report_document.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
-
-using nlohmann::json;
 
 namespace {
 
@@ -23,72 +23,67 @@ Image as_floats(const Image8& picture) {
     return image;
 }
 
-Image read(const DiffSide& side, const json& image, int width_px, int height_px) {
-    const std::string bytes = side.read_picture(image);
-    if (sha256_hex(bytes) != image.at("sha256").get<std::string>())
-        throw std::runtime_error("a picture is not the one that its report names");
-    return as_floats(decode_png(bytes, width_px, height_px));
+Image read(const DiffSide& side, const report::Picture& picture, diff::Size size_px) {
+    const std::string bytes = side.read_picture(picture);
+    if (sha256_hex(bytes) != picture.sha256) throw std::runtime_error("a picture is not the one that its report names");
+    return as_floats(decode_png(bytes, size_px.width, size_px.height));
 }
 
 MetricValue measure(const std::string& id, const ImagePair& pair) {
     return std::ranges::find(all_metrics(), id, &MetricInfo::id)->compute(pair);
 }
 
-const json* picture(const json& images, const char* name) {
-    const auto found = images.find(name);
-    return found == images.end() || !found->is_object() ? nullptr : &*found;
-}
-
-/// Whether the floats are the same where both reports keep them; null otherwise.
-json linear_verdict(const json& a, const json& b) {
-    const json *of_a = picture(a, "linear"), *of_b = picture(b, "linear");
-    if (!of_a || !of_b) return nullptr;
-    return of_a->at("sha256") == of_b->at("sha256") ? "identical" : "different";
+/// Whether the floats are the same, if both reports keep them; none otherwise.
+std::optional<diff::Floats> compare_floats(const report::Pictures& a, const report::Pictures& b) {
+    const report::Picture *of_a = find_picture(a, "linear"), *of_b = find_picture(b, "linear");
+    if (!of_a || !of_b) return std::nullopt;
+    return of_a->sha256 == of_b->sha256 ? diff::Floats::identical : diff::Floats::different;
 }
 
 }  // namespace
 
-json PictureDiff::compare(const json& a, const json& b, int width_px, int height_px, const std::string& name) {
-    const json *of_a = picture(a, "color"), *of_b = picture(b, "color");
-    if (!of_a || !of_b) return nullptr;
-    json result;
-    const auto pixels = static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(height_px);
-    if (of_a->at("sha256") == of_b->at("sha256")) {
-        result = {{"verdict", "identical"},
-                  {"flip", {{"mean", 0.0}, {"max", 0.0}}},
-                  {"differing_pixels", 0},
-                  {"greatest_levels", 0},
-                  {"worst_pixel", nullptr}};
+std::optional<diff::PictureDiff> PictureComparison::compare(const report::Pictures& a, const report::Pictures& b,
+                                                            diff::Size size_px, const std::string& name) {
+    const report::Picture *of_a = find_picture(a, "color"), *of_b = find_picture(b, "color");
+    if (!of_a || !of_b) return std::nullopt;
+    diff::PictureDiff result;
+    result.a = *of_a;
+    result.b = *of_b;
+    result.linear = compare_floats(a, b);
+    const auto pixels = static_cast<std::uint64_t>(size_px.width) * static_cast<std::uint64_t>(size_px.height);
+    if (of_a->sha256 == of_b->sha256) {
+        result.verdict = diff::PictureVerdict::identical;
+        result.flip = diff::FlipError{};
+        result.differing_pixels = 0;
+        result.greatest_levels = 0;
+        result.worst_pixel.is_known = true;
     } else if (pixels > m_pixels_left) {
-        result = {{"verdict", "not examined"}, {"reason", "the pictures of this diff are too large together"}};
+        result.reason = "the pictures of this diff are too large in total";
     } else {
         m_pixels_left -= pixels;
-        result = examine(*of_a, *of_b, width_px, height_px, name);
+        examine(result, size_px, name);
     }
-    result["linear"] = linear_verdict(a, b);
-    result["a"] = *of_a;
-    result["b"] = *of_b;
     return result;
 }
 
-json PictureDiff::examine(const json& a, const json& b, int width_px, int height_px, const std::string& name) {
-    const Image of_a = read(m_a, a, width_px, height_px), of_b = read(m_b, b, width_px, height_px);
+void PictureComparison::examine(diff::PictureDiff& result, diff::Size size_px, const std::string& name) {
+    const Image of_a = read(m_a, result.a, size_px), of_b = read(m_b, result.b, size_px);
     const ImagePair pair(of_a, of_b);
     const MetricValue flip = measure("flip", pair);
-    const json levels = measure("signed", pair).value, differing = measure("differing_pixels", pair).value;
-    json result = {
-        {"verdict", differing == 0 ? "identical" : "different"},
-        {"flip", {{"mean", flip.value["mean"]}, {"max", flip.value["max"]}}},
-        {"differing_pixels", differing},
-        {"greatest_levels", std::max(std::abs(levels["min"].get<int>()), std::abs(levels["max"].get<int>()))},
-        {"worst_pixel", measure("worst_pixel", pair).value}};
+    const nlohmann::json levels = measure("signed", pair).value, worst = measure("worst_pixel", pair).value;
+    const auto differing = measure("differing_pixels", pair).value.get<std::uint64_t>();
+    result.verdict = differing == 0 ? diff::PictureVerdict::identical : diff::PictureVerdict::different;
+    result.flip = diff::FlipError{flip.value["mean"], flip.value["max"]};
+    result.differing_pixels = differing;
+    result.greatest_levels = std::max(std::abs(levels["min"].get<int>()), std::abs(levels["max"].get<int>()));
+    result.worst_pixel = {true, from_document<std::optional<std::array<int, 2>>>(worst)};
     if (m_sink && differing != 0) {
         const std::string png = encode_png(flip.picture.value()), sha256 = sha256_hex(png);
-        result["flip_picture"] = {{"sha256", sha256},
-                                  {"url", m_sink->put(sha256, png, name + ".flip.png", "image/png")},
-                                  {"media_type", "image/png"}};
+        report::Picture& map = result.flip_picture.emplace();
+        map.sha256 = sha256;
+        map.media_type = "image/png";
+        map.url = m_sink->put(sha256, png, name + ".flip.png", map.media_type);
     }
-    return result;
 }
 
 }  // namespace sheer

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <set>
 
 #include "renderer/files/diff_parts.h"
-#include "renderer/spec/param.h"
 
 namespace sheer {
 
@@ -19,29 +18,29 @@ const json& member(const json& object, const std::string& name) {
     return found == object.end() ? none : *found;
 }
 
-/// A colour, a size or a load is one value.
+/// A color, a size or a load is one value.
 bool is_tuple(const json& value) {
     return value.is_array() && std::ranges::all_of(value, [](const json& one) { return one.is_number(); });
 }
 
-void compare_values(const std::string& pointer, const json& a, const json& b, std::vector<Difference>& found) {
+void compare_values(const std::string& pointer, const json& a, const json& b, std::vector<FieldDifference>& found) {
     if (a == b) return;
     if (a.is_object() && b.is_object()) {
         std::set<std::string> names;
         for (const json* object : {&a, &b})
             for (const auto& [name, value] : object->items()) names.insert(name);
         for (const std::string& name : names) {
-            const std::string inner = pointer + "/" + pointer_token(name);
+            const std::string inner = (json::json_pointer(pointer) / name).to_string();
             if (a.contains(name) && b.contains(name)) {
                 compare_values(inner, a[name], b[name], found);
             } else {
-                found.push_back({inner, member(a, name), member(b, name), false});
+                found.push_back({{inner, member(a, name), member(b, name)}, false});
             }
         }
     } else if (a.is_array() && b.is_array() && a.size() == b.size() && !is_tuple(a)) {
         for (std::size_t i = 0; i < a.size(); ++i) compare_values(fmt::format("{}/{}", pointer, i), a[i], b[i], found);
     } else {
-        found.push_back({pointer, a, b, true});
+        found.push_back({{pointer, a, b}, true});
     }
 }
 
@@ -50,99 +49,78 @@ const json* labelled(const json& methods, const std::string& label) {
     return found == methods.end() ? nullptr : &*found;
 }
 
-void compare_methods(const json& a, const json& b, std::vector<Difference>& found) {
+void compare_methods(const json& a, const json& b, std::vector<FieldDifference>& found) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         const std::string pointer = fmt::format("/spec/methods/{}", i);
         if (const json* other = labelled(b, a[i]["label"])) {
             compare_values(pointer, a[i], *other, found);
         } else {
-            found.push_back({pointer, a[i], nullptr, false});
+            found.push_back({{pointer, a[i], nullptr}, false});
         }
     }
     for (std::size_t i = 0; i < b.size(); ++i)
-        if (!labelled(a, b[i]["label"])) found.push_back({fmt::format("/spec/methods/{}", i), nullptr, b[i], false});
+        if (!labelled(a, b[i]["label"])) found.push_back({{fmt::format("/spec/methods/{}", i), nullptr, b[i]}, false});
 }
 
-bool is_in(const json& list, const json& value) {
-    return std::ranges::find(list, value) != list.end();
-}
-
-/// Files are matched by their names and the fields that lead to them. Reports made before they were named have none.
-void compare_files(const json& a, const json& b, std::vector<Difference>& found) {
-    if (!a.is_array() || !b.is_array()) return;
-    const auto is_same_place = [](const json& one, const json& other) {
-        return std::ranges::all_of(std::array{"pointer", "name", "of"},
-                                   [&](const char* key) { return member(one, key) == member(other, key); });
+/// Files are matched by their names and the fields that refer to them. A report without any was made before reports
+/// listed files, or its scene has none.
+void compare_files(const std::vector<report::File>& a, const std::vector<report::File>& b,
+                   std::vector<FieldDifference>& found) {
+    if (a.empty() || b.empty()) return;
+    const auto is_in = [](const std::vector<report::File>& files, const report::File& file) {
+        return std::ranges::find(files, file) != files.end();
     };
-    json left = json::array();
-    for (const json& file : b)
-        if (!is_in(a, file)) left.push_back(file);
+    const auto is_same_place = [](const report::File& one, const report::File& other) {
+        return one.pointer == other.pointer && one.name == other.name && one.of == other.of;
+    };
+    std::vector<report::File> left;
+    std::ranges::copy_if(b, std::back_inserter(left), [&](const report::File& file) { return !is_in(a, file); });
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (is_in(b, a[i])) continue;
-        const auto now = std::ranges::find_if(left, [&](const json& file) { return is_same_place(file, a[i]); });
-        found.push_back({fmt::format("/files/{}", i), a[i], now == left.end() ? json() : *now, now != left.end()});
-        if (now != left.end()) left.erase(now);
+        const auto now =
+            std::ranges::find_if(left, [&](const report::File& file) { return is_same_place(file, a[i]); });
+        const bool is_there = now != left.end();
+        found.push_back(
+            {{fmt::format("/files/{}", i), to_document(a[i]), is_there ? to_document(*now) : json()}, is_there});
+        if (is_there) left.erase(now);
     }
-    for (const json& file : left)
-        found.push_back({fmt::format("/files/{}", std::ranges::find(b, file) - b.begin()), nullptr, file, false});
+    for (const report::File& file : left)
+        found.push_back(
+            {{fmt::format("/files/{}", std::ranges::find(b, file) - b.begin()), nullptr, to_document(file)}, false});
 }
 
-std::vector<std::string> labels(const json& report) {
-    std::vector<std::string> all;
-    for (const json& method : report.at("spec").at("methods")) all.push_back(method.at("label"));
-    return all;
+/// The command that repeats a report and the path of its spec do not matter here. An older report may lack newer
+/// members.
+json provenance_of(const report::Report& report) {
+    json provenance = to_document(report.provenance);
+    for (const char* key : {"rerun", "spec"}) provenance.erase(key);
+    if (report.provenance.cores == 0) provenance.erase("cores");
+    for (const char* key : {"version", "commit"})
+        if (provenance[key] == "") provenance.erase(key);
+    return provenance;
 }
 
-bool sweeps_methods(const json& report) {
-    return std::ranges::any_of(report.at("runs"), [](const json& run) {
-        return std::ranges::any_of(run.at("point").items(),
-                                   [](const auto& value) { return value.key().starts_with("/methods/"); });
-    });
-}
-
-/// What decides how a picture of a method looks.
-bool shapes_pictures(const std::string& pointer) {
-    return pointer.starts_with("/spec/image/") || pointer.starts_with("/spec/scene") ||
-           pointer.starts_with("/spec/methods/");
+json device_of(const report::Report& report) {
+    return report.device ? to_document(*report.device) : json();
 }
 
 }  // namespace
 
-std::vector<Difference> report_differences(const json& a, const json& b) {
-    std::vector<Difference> found;
-    json spec_a = a.at("spec"), spec_b = b.at("spec");
+std::vector<FieldDifference> report_differences(const report::Report& a, const report::Report& b) {
+    std::vector<FieldDifference> found;
+    json spec_a = a.spec, spec_b = b.spec;
     compare_methods(spec_a.at("methods"), spec_b.at("methods"), found);
     spec_a.erase("methods");
     spec_b.erase("methods");
     compare_values("/spec", spec_a, spec_b, found);
-    compare_files(member(a, "files"), member(b, "files"), found);
-    compare_values("/device", member(a, "device"), member(b, "device"), found);
-    json provenance_a = member(a, "provenance"), provenance_b = member(b, "provenance");
-    // How to repeat a report is no part of where it comes from, nor is where its spec lay.
-    for (json* provenance : {&provenance_a, &provenance_b})
-        for (const char* key : {"rerun", "spec"})
-            if (provenance->is_object()) provenance->erase(key);
-    compare_values("/provenance", provenance_a, provenance_b, found);
+    compare_files(a.files, b.files, found);
+    compare_values("/device", device_of(a), device_of(b), found);
+    compare_values("/provenance", provenance_of(a), provenance_of(b), found);
     return found;
 }
 
-std::vector<FieldError> spec_conflicts(const json& a, const json& b, const std::vector<Difference>& differences) {
-    std::vector<FieldError> errors;
-    for (const Difference& one : differences)
-        if (one.is_in_both && shapes_pictures(one.pointer))
-            errors.push_back({one.pointer, fmt::format("is {} in one report and {} in the other",
-                                                       one.a.dump(-1, ' ', false, json::error_handler_t::replace),
-                                                       one.b.dump(-1, ' ', false, json::error_handler_t::replace))});
-    // A sweep names methods by their place.
-    if (labels(a) != labels(b) && (sweeps_methods(a) || sweeps_methods(b)))
-        errors.push_back({"/spec/methods", "must be the same in both reports where the sweep sets their parameters"});
-    return errors;
-}
-
-bool is_same_device(const json& a, const json& b) {
-    const json &of_a = member(a, "device"), &of_b = member(b, "device");
-    return of_a.is_object() && of_b.is_object() && member(of_a, "renderer") == member(of_b, "renderer") &&
-           member(of_a, "cpu") == member(of_b, "cpu");
+bool is_same_device(const report::Report& a, const report::Report& b) {
+    return a.device && b.device && a.device->renderer == b.device->renderer && a.device->cpu == b.device->cpu;
 }
 
 }  // namespace sheer

@@ -1,12 +1,11 @@
 #pragma once
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "renderer/results/report.h"
 
 namespace sheer {
 
-/// One HTML file that needs nothing else; `read_picture` gives the bytes of a picture by its image object.
-std::string report_html(const nlohmann::json& report,
-                        const std::function<std::string(const nlohmann::json& image)>& read_picture);
+/// A self-contained HTML file.
+std::string report_html(const report::Report& report, const report::PictureReader& read_picture);
 
 }  // namespace sheer

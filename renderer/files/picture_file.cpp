@@ -42,7 +42,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
 std::string encode_floats(int width_px, int height_px, int channels, const float* values) {
     OIIO::ImageSpec spec(width_px, height_px, channels, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
-    // Without a date the writer takes the time of day, and the same pixels would be other bytes each time.
+    // Without a date the writer would store the current time, and the same pixels would give different bytes.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
     return encode("openexr", spec, OIIO::TypeDesc::FLOAT, values);
 }
@@ -51,7 +51,7 @@ std::string encode_floats(int width_px, int height_px, int channels, const float
 
 std::string encode_png(const Image8& image) {
     OIIO::ImageSpec spec(image.width_px, image.height_px, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("png:compressionLevel", 4);  // a third of the time of level 9 for a few per cent more bytes
+    spec.attribute("png:compressionLevel", 4);  // a third of the time of level 9 for a few percent more bytes
     return encode("png", spec, OIIO::TypeDesc::UINT8, image.rgb.data());
 }
 
@@ -79,10 +79,11 @@ Image8 read_png(const std::string& path) {
 Image8 decode_png(const std::string& bytes, int width_px, int height_px) {
     const std::string signature("\x89PNG\r\n\x1a\n");
     constexpr std::size_t width_at = 16, height_at = 20, header_bytes = 24;
-    if (bytes.size() < header_bytes || !bytes.starts_with(signature)) throw std::runtime_error("a picture is no PNG");
+    if (bytes.size() < header_bytes || !bytes.starts_with(signature))
+        throw std::runtime_error("a picture is not a PNG file");
     if (big_endian(bytes, width_at) != static_cast<std::uint32_t>(width_px) ||
         big_endian(bytes, height_at) != static_cast<std::uint32_t>(height_px))
-        throw std::runtime_error("a picture has another size than its report says");
+        throw std::runtime_error("a picture does not have the size given in its report");
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
     const auto input = OIIO::ImageInput::create("png");
     if (!input) throw std::runtime_error("no reader for PNG: " + OIIO::geterror());
@@ -107,7 +108,7 @@ std::array<double, 3> read_pixel(const std::string& bytes, int x, int y) {
         throw std::runtime_error("cannot read a picture: " + input->geterror());
     const float* pixel = &row[static_cast<std::size_t>(x) * channels];
     std::array<double, 3> value{};
-    // 8 bits come as the nearest float; the level itself is exact.
+    // 8-bit values are read as the nearest floats; the level itself is exact.
     for (int i = 0; i < channels; ++i) value[i] = is_png ? std::round(pixel[i] * 255.0) / 255.0 : double{pixel[i]};
     return value;
 }

@@ -2,18 +2,19 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 #include "renderer/gl/debug_log.h"
 
 namespace sheer::gl {
 namespace {
 
-/// Asked before anything is loaded, so that an old driver is called old and not short of some function.
+/// Checked before anything is loaded, so that an old driver is reported as old rather than as lacking some function.
 void require_version(const Resolver& resolve) {
     const auto get_integer = reinterpret_cast<PFNGLGETINTEGERVPROC>(resolve("glGetIntegerv"));
     if (get_integer == nullptr) throw RenderError("the OpenGL driver lacks glGetIntegerv");
@@ -22,7 +23,7 @@ void require_version(const Resolver& resolve) {
     get_integer(GL_MAJOR_VERSION, &major);
     get_integer(GL_MINOR_VERSION, &minor);
     if (major * 10 + minor < 45) {
-        throw RenderError(fmt::format("the driver has OpenGL {}.{} and 4.5 is needed", major, minor));
+        throw RenderError(fmt::format("the driver has OpenGL {}.{}, but 4.5 is needed", major, minor));
     }
 }
 

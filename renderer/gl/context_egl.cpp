@@ -6,13 +6,13 @@
 #include <array>
 #include <string_view>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 #include "renderer/gl/context_kinds.h"
 
 namespace sheer::gl {
 namespace {
 
-/// The name of what eglGetError gives.
+/// The name of the error that eglGetError returns.
 std::string last_error() {
     constexpr std::array<std::string_view, 15> names{
         "EGL_SUCCESS",       "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",        "EGL_BAD_ALLOC",
@@ -24,7 +24,7 @@ std::string last_error() {
     return index < names.size() ? std::string(names[index]) : fmt::format("error {:#x}", error);
 }
 
-/// Whether a list of extensions, with spaces between them, has this one.
+/// Whether a space-separated list of extensions contains this one.
 bool lists(const char* extensions, std::string_view name) {
     return extensions != nullptr &&
            fmt::format(" {} ", extensions).find(fmt::format(" {} ", name)) != std::string::npos;
@@ -41,8 +41,8 @@ Pointer egl_function(const char* name) {
     return function;
 }
 
-/// An initialised display. It is never terminated: EGL gives everyone who asks for the same platform the same display,
-/// and ending it here would end it for the other contexts of this process.
+/// An initialised display. It is never terminated: EGL returns the same display to everyone who asks for the same
+/// platform, so terminating it here would terminate it for the other contexts of this process.
 EGLDisplay open_display(EGLenum platform, void* native) {
     const auto get_display = egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     EGLDisplay display = get_display(platform, native, nullptr);
@@ -79,8 +79,8 @@ class EglHandle {
     }
 
     void make_current() {
-        // EGL does nothing when it believes that the context is current already, which it does believe after OSMesa has
-        // made its own current behind EGL's back.
+        // EGL does nothing if it believes that the context is already current, and it still believes so after OSMesa
+        // has made its own current without EGL's knowledge.
         eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context) == EGL_FALSE) {
             throw RenderError("the EGL context cannot be made current without a surface: " + last_error());

@@ -1,7 +1,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 #include "renderer/gl/context_kinds.h"
 #include "renderer/gl/glfw_library.h"
 
@@ -13,7 +13,7 @@ class GlfwHandle {
     GlfwHandle() : m_library(GlfwLibrary::acquire()) {
         glfwDefaultWindowHints();
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-        // EGL and GLX refuse to take a thread over from each other, GLX by ending the process.
+        // EGL and GLX refuse to share a thread; GLX ends the process.
         glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);

@@ -17,12 +17,12 @@ enum class Expectation { gpu, software, last_resort };
 struct Candidate {
     DeviceInfo info;  ///< context, index, name and platform only
     Expectation expectation = Expectation::software;
-    /// The new context is current. Throws an exception with the reason if there is none to be had.
+    /// The new context is current. Throws an exception with the reason if none can be made.
     std::function<std::unique_ptr<Context>(const DeviceInfo&, const ContextRequest&)> create;
 };
 
-/// The candidates of each kind, in the order of their index. None of these throws for what the machine lacks: that is
-/// for `create`, so that a user sees the reason.
+/// The candidates of each kind, in the order of their index. None of these throws if the machine lacks something:
+/// `create` does, so that a user sees the reason.
 std::vector<Candidate> egl_candidates();
 std::vector<Candidate> osmesa_candidates();
 std::vector<Candidate> glfw_candidates();
@@ -34,10 +34,10 @@ struct Kind {
     bool automatic = false;  ///< whether "auto" tries it
 };
 
-/// A driver that has said nothing for so long is taken for one that hangs.
+/// A driver that has not answered for this long is taken to hang.
 inline constexpr std::chrono::seconds look_time_limit{30};
 
-/// create_context(), open_device() and list_devices() of context.h over these kinds, in their order.
+/// create_context(), open_device() and list_devices() of context.h for these kinds, in their order.
 std::unique_ptr<Context> create_context(const ContextRequest& request, std::span<const Kind> kinds);
 std::unique_ptr<Context> open_device(const ContextRequest& request, std::span<const Kind> kinds,
                                      std::chrono::milliseconds time_limit = look_time_limit);

@@ -1,9 +1,9 @@
 #include <array>
 #include <cstdint>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 #include "renderer/gl/context_kinds.h"
-// After glcorearb.h, whose names it would otherwise define first.
+// After glad, which must be included before <GL/gl.h>, which this header includes.
 #include <GL/osmesa.h>
 
 namespace sheer::gl {

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <stdexcept>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 #include "renderer/gl/context_kinds.h"
 #include "renderer/gl/forked.h"
 
@@ -43,14 +44,14 @@ class Selection {
     By m_by;
 };
 
-/// What is known before a choice, and who is told how it goes.
+/// What is known before a choice, and who is told about its progress.
 struct Choice {
     std::map<std::string, std::string> unusable;  ///< candidates that are left out, by name, and why
     Say say;                                      ///< told the name of each candidate before it is tried; may be null
 };
 
-/// The best context of one kind, or null with the reasons added. A GPU comes before software, which comes before what
-/// is there for machines without EGL devices.
+/// The best context of one kind, or null with the reasons added. A GPU comes before software, and both come before the
+/// fallback for machines without EGL devices.
 std::unique_ptr<Context> best_of(std::vector<Candidate> candidates, const Selection& selection,
                                  const ContextRequest& request, const Choice& choice,
                                  std::vector<std::string>& reasons) {
@@ -89,13 +90,13 @@ std::unique_ptr<Context> choose(const ContextRequest& request, std::span<const K
         if (request.context == "auto" ? !kind.automatic : request.context != kind.name) continue;
         if (auto context = best_of(kind.candidates(), selection, request, choice, reasons)) return context;
     }
-    if (reasons.empty()) reasons.emplace_back("there is none of that name");
+    if (reasons.empty()) reasons.emplace_back("there is none with that name");
     throw Unsupported(fmt::format("no OpenGL 4.5 context '{}'{}: {}", request.context,
                                   selection.any() ? "" : fmt::format(" on device '{}'", request.device),
                                   fmt::join(reasons, "; ")));
 }
 
-/// Chooses in children until one comes to its end: the candidates that took theirs with them, and how.
+/// Chooses in children until one of them finishes. Returns the candidates that crashed theirs, and how.
 std::map<std::string, std::string> look_ahead(const ContextRequest& request, std::span<const Kind> kinds,
                                               std::chrono::milliseconds time_limit) {
     std::map<std::string, std::string> unusable;
@@ -103,10 +104,11 @@ std::map<std::string, std::string> look_ahead(const ContextRequest& request, std
         const ForkedRun run = run_forked(
             [&](const Say& say) {
                 try {
-                    // Not destroyed: that is for the end, when the report is written.
+                    // Not destroyed here: a driver may crash while it is destroyed, and at the end the report has been
+                    // written.
                     choose(request, kinds, {unusable, say}).release();
                 } catch (const std::exception&) {
-                    // The process that asks gets the same, with its reasons.
+                    // The calling process meets the same exception, with its reasons.
                 }
             },
             time_limit);
@@ -133,7 +135,7 @@ ListedDevice listed(const nlohmann::json& line) {
     return device;
 }
 
-/// Says of each candidate from the `first` that it is its turn, then what came of it.
+/// For each candidate from the `first` on, says that it is being tried and then what the result was.
 void look_at_candidates(std::span<const Kind> kinds, std::size_t first, const Say& say) {
     std::size_t number = 0;
     const auto tell = [&](const DeviceInfo& info, const nlohmann::json& error, bool done) {
@@ -165,7 +167,7 @@ void require_known(std::string_view context, std::span<const Kind> kinds) {
 
 std::unique_ptr<Context> create_context(const ContextRequest& request, std::span<const Kind> kinds) {
     require_known(request.context, kinds);
-    // A wrong name is the caller's mistake, not a reason to go on to the next device.
+    // A wrong name is the caller's mistake, not a reason to try the next device.
     const Workarounds names_are_known(DeviceInfo{}, request.disabled_workarounds);
     return choose(request, kinds, {});
 }

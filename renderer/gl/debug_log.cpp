@@ -11,12 +11,12 @@
 #include <cstring>
 #include <utility>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 
 namespace sheer::gl {
 namespace {
 
-/// Of a thousand errors of one loop the first few say it all.
+/// If a loop raises a thousand errors, the first few are enough.
 constexpr std::size_t max_kept = 16;
 
 struct Noun {
@@ -25,7 +25,7 @@ struct Noun {
     PFNGLISBUFFERPROC Functions::*exists;
 };
 
-/// A word comes before those that it ends with.
+/// A word comes before the words that are its endings.
 constexpr std::array nouns{
     Noun{"framebuffer", GL_FRAMEBUFFER, &Functions::IsFramebuffer},
     Noun{"renderbuffer", GL_RENDERBUFFER, &Functions::IsRenderbuffer},
@@ -42,7 +42,7 @@ void trim_end(std::string_view& text) {
     text.remove_suffix(text.size() - (text.find_last_not_of(" =(") + 1));
 }
 
-/// The label of the object of this number, if the words before the number say of what kind it is.
+/// The label of the object with this number, if the words before the number say of what kind it is.
 std::string label_of(const Functions& gl, std::string_view words_before, std::string_view number) {
     std::string lower(words_before);
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -60,7 +60,7 @@ std::string label_of(const Functions& gl, std::string_view words_before, std::st
     return {label.data(), static_cast<std::size_t>(length)};
 }
 
-/// The message with the label after each object that it speaks of by number: "program 3" to "program 3 'blend'".
+/// The message with the label after each object that it mentions by number: "program 3" to "program 3 'blend'".
 std::string with_labels(const Functions& gl, std::string_view message) {
     constexpr std::string_view digits = "0123456789";
     std::string text;
@@ -98,7 +98,7 @@ std::string error_name(GLenum error) {
     }
 }
 
-/// A driver may hold one flag per kind of error, and a lost context never runs out of them.
+/// A driver may hold one flag per kind of error, and a lost context reports errors forever.
 std::vector<std::string> take_errors(const Functions& gl) {
     std::vector<std::string> names;
     while (names.size() < max_kept) {
@@ -111,7 +111,7 @@ std::vector<std::string> take_errors(const Functions& gl) {
 
 spdlog::level::level_enum level_of(GLenum type, GLenum severity) {
     if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH) return spdlog::level::err;
-    // Performance hints come by the frame; they are for whoever looks for them.
+    // Performance hints come with every frame; only those who look for them want to see them.
     if (type == GL_DEBUG_TYPE_PERFORMANCE) return spdlog::level::debug;
     if (severity == GL_DEBUG_SEVERITY_MEDIUM) return spdlog::level::warn;
     return severity == GL_DEBUG_SEVERITY_LOW ? spdlog::level::info : spdlog::level::trace;
@@ -131,8 +131,8 @@ void DebugLog::attach(const Functions& gl) {
     }
 }
 
-void APIENTRY DebugLog::on_message(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length,
-                                   const GLchar* message, const void* user) {
+void GLAD_API_PTR DebugLog::on_message(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length,
+                                       const GLchar* message, const void* user) {
     const std::size_t size = length < 0 ? std::strlen(message) : static_cast<std::size_t>(length);
     // GL hands the pointer of attach() back as a pointer to const.
     auto* log = static_cast<DebugLog*>(const_cast<void*>(user));

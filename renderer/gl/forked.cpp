@@ -37,7 +37,7 @@ void write_all(int descriptor, std::string_view text) {
     setrlimit(RLIMIT_CORE, &no_core);
     for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM, SIGHUP})
         std::signal(signal, SIG_DFL);
-    // The same is printed again where the work is then done in earnest.
+    // The same is printed again by the process that then does the real work.
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
@@ -49,7 +49,7 @@ void write_all(int descriptor, std::string_view text) {
     _exit(0);
 }
 
-/// Appends what comes until the end of the file; false if that does not come in time.
+/// Appends what is read until the end of the file; false if that does not come in time.
 bool read_until(int descriptor, Clock::time_point deadline, std::string& text) {
     std::array<char, 4096> buffer;
     while (true) {

@@ -2,33 +2,24 @@
 
 #include <fmt/format.h>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
+#include "used_gl_functions.h"
 
 namespace sheer::gl {
-namespace {
-
-template <typename Pointer>
-void load_optional(const Resolver& resolve, Pointer& function, const char* name) {
-    function = reinterpret_cast<Pointer>(resolve(name));
-}
-
-template <typename Pointer>
-void load(const Resolver& resolve, Pointer& function, const char* name) {
-    load_optional(resolve, function, name);
-    if (function == nullptr) {
-        throw RenderError(fmt::format("the OpenGL driver lacks {}, which OpenGL 4.5 must have", name));
-    }
-}
-
-}  // namespace
 
 Functions load_functions(const Resolver& resolve) {
-    Functions gl;
-#define SHEER_GL_FUNCTION(type, name) load(resolve, gl.name, "gl" #name);
-#define SHEER_GL_OPTIONAL(type, name) load_optional(resolve, gl.name, "gl" #name);
-#include "renderer/gl/functions.def"
-#undef SHEER_GL_FUNCTION
-#undef SHEER_GL_OPTIONAL
+    for (const char* name : used_functions) {
+        if (resolve(name) == nullptr) {
+            throw RenderError(fmt::format("the OpenGL driver lacks {}, which OpenGL 4.5 must have", name));
+        }
+    }
+    const auto load = [](void* user, const char* name) {
+        return reinterpret_cast<GLADapiproc>((*static_cast<const Resolver*>(user))(name));
+    };
+    Functions gl{};
+    gladLoadGLContextUserPtr(&gl, load, const_cast<Resolver*>(&resolve));
+    // glad only loads the functions of the versions up to the one that it reads in GL_VERSION.
+    if (gl.VERSION_4_5 == 0) throw RenderError("the OpenGL driver's GL_VERSION does not begin with 4.5 or more");
     return gl;
 }
 

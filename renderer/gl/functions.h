@@ -1,26 +1,18 @@
 #pragma once
-#include <GL/glcorearb.h>
+#include <glad/gl.h>
 
 #include <functional>
 
 namespace sheer::gl {
 
-/// The OpenGL functions that Sheer calls, as members: `gl.BindTexture(...)`. The list is functions.def.
-///
-/// No packaged loader serves EGL, OSMesa and GLFW alike: libepoxy asserts on an OSMesa context, GLEW and glbinding
-/// resolve through GLX, glad is not packaged.
-struct Functions {
-#define SHEER_GL_FUNCTION(type, name) type name = nullptr;
-#define SHEER_GL_OPTIONAL(type, name) type name = nullptr;
-#include "renderer/gl/functions.def"
-#undef SHEER_GL_FUNCTION
-#undef SHEER_GL_OPTIONAL
-};
+/// The functions of OpenGL 4.5 core as members: `gl.BindFramebuffer(...)`. glad makes this table from the
+/// specification; see cmake/gl_loader.cmake. A driver need not have those that Sheer never calls; they are then null.
+using Functions = GladGLContext;
 
-/// Gives the address of a GL function by its full name ("glClear"), or null.
+/// Returns the address of a GL function by its full name ("glClear"), or null.
 using Resolver = std::function<void*(const char*)>;
 
-/// Throws RenderError naming the first function that is missing; optional ones stay null.
+/// The functions of the current context. Throws RenderError naming the first one that Sheer calls but the driver lacks.
 Functions load_functions(const Resolver& resolve);
 
 }  // namespace sheer::gl

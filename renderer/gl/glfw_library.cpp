@@ -3,7 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 
 namespace sheer::gl {
 
@@ -21,7 +21,7 @@ GlfwLibrary::~GlfwLibrary() {
 }
 
 std::shared_ptr<GlfwLibrary> GlfwLibrary::acquire() {
-    // GLFW does not count its own initialisations, and terminating it destroys everyone's windows.
+    // GLFW does not count how often it is initialised, and terminating it destroys all windows of the process.
     static std::weak_ptr<GlfwLibrary> alive;
     std::shared_ptr<GlfwLibrary> library = alive.lock();
     if (library == nullptr) {

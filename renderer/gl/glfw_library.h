@@ -4,8 +4,8 @@
 
 namespace sheer::gl {
 
-/// GLFW as a whole, which is one per process: initialised with the first of these that is alive, terminated with the
-/// last. Windows must be destroyed before. Main thread only, as GLFW demands.
+/// GLFW, of which there is one per process: initialised with the first of these objects, terminated with the last.
+/// Windows must be destroyed before. Main thread only, as GLFW demands.
 class GlfwLibrary {
   public:
     /// Throws Unsupported with GLFW's reason, such as no display.
@@ -19,7 +19,7 @@ class GlfwLibrary {
     GlfwLibrary();
 };
 
-/// The text of GLFW's last error on this thread, which it forgets.
+/// The text of GLFW's last error on this thread, which is cleared.
 std::string take_glfw_error();
 
 }  // namespace sheer::gl

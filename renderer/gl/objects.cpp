@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
+#include <regex>
 #include <stdexcept>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
+#include "renderer/gl/copy_uniform.h"
 
 namespace sheer::gl {
 namespace {
@@ -26,6 +28,38 @@ std::string_view stage_name(GLenum stage) {
 using GetParameter = PFNGLGETSHADERIVPROC;
 using GetLog = PFNGLGETSHADERINFOLOGPROC;
 
+/// In what the driver compiles, lines of shader files are numbered from here on, each file with a range of its own.
+/// (Mesa ignores the source string number of #line, which is meant for telling files apart.)
+constexpr int first_file_line = 1'000'000, lines_of_a_file = 10'000;
+
+int first_line_of(std::size_t file) {
+    return first_file_line + static_cast<int>(file) * lines_of_a_file + 1;
+}
+
+/// "shaders/methods/f2bd.glsl:12" for the number of such a line; "" for any other number.
+std::string file_and_line(long line) {
+    const auto files = embedded_shaders();
+    if (line < first_file_line) return "";
+    const auto file = static_cast<std::size_t>((line - first_file_line) / lines_of_a_file);
+    if (file >= files.size()) return "";
+    return fmt::format("shaders/{}:{}", files[file].path, (line - first_file_line) % lines_of_a_file);
+}
+
+/// The log with "shaders/methods/f2bd.glsl:12" for "0:1230012" (Mesa, AMD) and "0(1230012)" (NVIDIA).
+std::string with_file_names(const std::string& log) {
+    static const std::regex place(R"(\b0[:(](\d{7,9})\)?)");
+    std::string named;
+    std::size_t done = 0;
+    for (std::sregex_iterator match(log.begin(), log.end(), place), end; match != end; ++match) {
+        const std::string file = file_and_line(std::stol((*match)[1]));
+        if (file.empty()) continue;
+        const auto at = static_cast<std::size_t>(match->position());
+        named += log.substr(done, at - done) + file;
+        done = at + static_cast<std::size_t>(match->length());
+    }
+    return named + log.substr(done);
+}
+
 /// The driver's log of a shader or a program, which share these signatures.
 std::string info_log(GetParameter get_parameter, GetLog get_log, GLuint id) {
     GLint size = 0;
@@ -35,7 +69,7 @@ std::string info_log(GetParameter get_parameter, GetLog get_log, GLuint id) {
     GLsizei length = 0;
     get_log(id, size, &length, log.data());
     log.resize(static_cast<std::size_t>(length));
-    return log;
+    return with_file_names(log);
 }
 
 Shader compile(const Functions& gl, std::string_view label, GLenum stage, std::string_view source) {
@@ -76,7 +110,7 @@ std::string status_name(GLenum status) {
     }
 }
 
-/// Where a depth texture goes: with its stencil if it has one.
+/// The attachment point of a depth texture, which includes its stencil if it has one.
 GLenum depth_attachment(const Functions& gl, GLuint texture) {
     GLint stencil_bits = 0;
     gl.GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_STENCIL_SIZE, &stencil_bits);
@@ -86,39 +120,10 @@ GLenum depth_attachment(const Functions& gl, GLuint texture) {
     return depth_bits == 0 ? GL_STENCIL_ATTACHMENT : GL_DEPTH_STENCIL_ATTACHMENT;
 }
 
-/// Block members have no location and are passed over.
-void copy_uniform(const Functions& gl, GLuint from, GLuint to, const char* name, GLenum type) {
-    const GLint source = gl.GetUniformLocation(from, name), target = gl.GetUniformLocation(to, name);
-    if (source < 0 || target < 0) return;
-    std::array<GLfloat, 16> floats{};
-    GLint integer = 0;
-    switch (type) {
-        case GL_FLOAT:
-        case GL_FLOAT_VEC2:
-        case GL_FLOAT_VEC3:
-        case GL_FLOAT_VEC4:
-        case GL_FLOAT_MAT4:
-            gl.GetUniformfv(from, source, floats.data());
-            break;
-        default:  // samplers, of which there are many types, are integers
-            gl.GetUniformiv(from, source, &integer);
-    }
-    switch (type) {
-        case GL_FLOAT:
-            return gl.ProgramUniform1fv(to, target, 1, floats.data());
-        case GL_FLOAT_VEC2:
-            return gl.ProgramUniform2fv(to, target, 1, floats.data());
-        case GL_FLOAT_VEC3:
-            return gl.ProgramUniform3fv(to, target, 1, floats.data());
-        case GL_FLOAT_VEC4:
-            return gl.ProgramUniform4fv(to, target, 1, floats.data());
-        case GL_FLOAT_MAT4:
-            return gl.ProgramUniformMatrix4fv(to, target, 1, GL_FALSE, floats.data());
-        case GL_UNSIGNED_INT:
-            return gl.ProgramUniform1ui(to, target, static_cast<GLuint>(integer));
-        default:
-            return gl.ProgramUniform1i(to, target, integer);
-    }
+/// GL names an array by its first element.
+std::string element_name(std::string_view name, GLint element) {
+    if (!name.ends_with("[0]")) return std::string(name);
+    return fmt::format("{}[{}]", name.substr(0, name.size() - 3), element);
 }
 
 }  // namespace
@@ -127,7 +132,7 @@ Buffer make_buffer(const Functions& gl, std::string_view label, GLsizeiptr size_
                    GLbitfield flags) {
     GLuint id = 0;
     gl.CreateBuffers(1, &id);
-    Buffer buffer(gl, id, label);
+    Buffer buffer(gl, id, label, size_bytes);
     gl.NamedBufferStorage(id, size_bytes, data, flags);
     return buffer;
 }
@@ -136,13 +141,52 @@ Texture make_texture_2d(const Functions& gl, std::string_view label, GLenum inte
                         int height_px, int levels) {
     GLuint id = 0;
     gl.CreateTextures(GL_TEXTURE_2D, 1, &id);
-    Texture texture(gl, id, label);
+    std::int64_t texels = 0;
+    for (int level = 0; level < levels; ++level)
+        texels += std::int64_t{std::max(width_px >> level, 1)} * std::max(height_px >> level, 1);
+    Texture texture(gl, id, label, texels * bytes_per_texel(internal_format));
     gl.TextureStorage2D(id, levels, internal_format, width_px, height_px);
     gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl.TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return texture;
+}
+
+Texture make_texture_2d_multisample(const Functions& gl, std::string_view label, GLenum internal_format, int width_px,
+                                    int height_px, int samples) {
+    GLuint id = 0;
+    gl.CreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &id);
+    const std::int64_t texels = std::int64_t{width_px} * height_px * samples;
+    Texture texture(gl, id, label, texels * bytes_per_texel(internal_format));
+    gl.TextureStorage2DMultisample(id, samples, internal_format, width_px, height_px, GL_TRUE);
+    return texture;
+}
+
+int bytes_per_texel(GLenum internal_format) {
+    switch (internal_format) {
+        case GL_R8:
+            return 1;
+        case GL_R16F:
+        case GL_DEPTH_COMPONENT16:
+            return 2;
+        case GL_RGBA8:
+        case GL_R32F:
+        case GL_R32UI:
+        case GL_RGB9_E5:
+        case GL_DEPTH_COMPONENT24:
+        case GL_DEPTH_COMPONENT32F:
+        case GL_DEPTH24_STENCIL8:
+            return 4;
+        case GL_RGBA16F:
+        case GL_RG32F:
+        case GL_DEPTH32F_STENCIL8:
+            return 8;
+        case GL_RGBA32F:
+            return 16;
+        default:
+            throw std::logic_error(fmt::format("the size of format {:#06x} is not known", internal_format));
+    }
 }
 
 Framebuffer make_framebuffer(const Functions& gl, std::string_view label, std::span<const GLuint> colors,
@@ -205,19 +249,41 @@ Program Program::with_fragment_source(std::string_view label, std::string_view f
 }
 
 void Program::copy_uniforms(const Program& other) const {
-    GLint count = 0;
+    GLint count = 0, longest = 0;
     m_gl->GetProgramiv(other.id(), GL_ACTIVE_UNIFORMS, &count);
+    m_gl->GetProgramiv(other.id(), GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+    std::vector<GLchar> name(static_cast<std::size_t>(longest) + 1);
     for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
-        std::array<GLchar, 256> name{};
         GLint size = 0;
         GLenum type = 0;
         m_gl->GetActiveUniform(other.id(), index, static_cast<GLsizei>(name.size()), nullptr, &size, &type,
                                name.data());
-        copy_uniform(*m_gl, other.id(), id(), name.data(), type);
+        for (GLint element = 0; element < size; ++element)
+            copy_element(other, element_name(name.data(), element), type);
     }
+    m_samplers = other.m_samplers;
 }
 
-// GL passes over location -1, which is what a uniform that the compiler removed has.
+void Program::copy_element(const Program& other, const std::string& name, GLenum type) const {
+    const UniformPlace from{other.id(), m_gl->GetUniformLocation(other.id(), name.c_str())};
+    const UniformPlace to{id(), m_gl->GetUniformLocation(id(), name.c_str())};
+    // Members of blocks have no location.
+    if (from.location >= 0 && to.location >= 0) copy_uniform(*m_gl, from, to, name, type);
+}
+
+void Program::set_texture(const char* name, const Texture& texture) const {
+    const GLint location = m_gl->GetUniformLocation(id(), name);
+    if (location < 0) return;
+    const auto known = std::ranges::find(m_samplers, name);
+    const auto unit = first_named_texture_unit + static_cast<GLuint>(known - m_samplers.begin());
+    if (known == m_samplers.end()) {
+        m_samplers.emplace_back(name);
+        m_gl->ProgramUniform1i(id(), location, static_cast<GLint>(unit));
+    }
+    m_gl->BindTextureUnit(unit, texture.id());
+}
+
+// GL ignores location -1, the location of a uniform that the compiler removed.
 void Program::set(const char* name, int value) const {
     m_gl->ProgramUniform1i(id(), m_gl->GetUniformLocation(id(), name), value);
 }
@@ -246,11 +312,16 @@ void Program::set(const char* name, const glm::mat4& value) const {
     m_gl->ProgramUniformMatrix4fv(id(), m_gl->GetUniformLocation(id(), name), 1, GL_FALSE, glm::value_ptr(value));
 }
 
-std::string_view shader_file(std::string_view path) {
+std::string shader_file(std::string_view path) {
     const auto files = embedded_shaders();
     const auto file = std::ranges::find(files, path, &EmbeddedFile::path);
     if (file == files.end()) throw std::out_of_range(fmt::format("there is no shader file '{}'", path));
-    return file->bytes;
+    const std::string_view text = file->bytes;
+    const int first = first_line_of(static_cast<std::size_t>(file - files.begin()));
+    // Nothing may come before #version.
+    if (!text.starts_with("#version")) return fmt::format("#line {}\n{}", first, text);
+    const std::size_t second = text.find('\n') + 1;
+    return fmt::format("{}#line {}\n{}", text.substr(0, second), first + 1, text.substr(second));
 }
 
 }  // namespace sheer::gl

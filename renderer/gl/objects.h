@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace sheer::gl {
 
-/// A longer label is cut: every OpenGL 4.3 driver takes this many bytes, and one too many is an error.
+/// A longer label is cut: every OpenGL 4.3 driver accepts this many bytes, and one more is an error.
 inline constexpr std::size_t max_label_bytes = 255;
 
 /// A GL object that is deleted with its owner. Move-only, labelled for debug output; must die before its context, while
@@ -20,14 +21,20 @@ template <typename Kind>
 class Object {
   public:
     Object() = default;
-    Object(const Functions& gl, GLuint id, std::string_view label) : m_gl(&gl), m_id(id) {
+    /// `memory_bytes` is the size of its storage, which GL itself does not report.
+    Object(const Functions& gl, GLuint id, std::string_view label, std::int64_t memory_bytes = 0)
+        : m_gl(&gl), m_id(id), m_memory_bytes(memory_bytes) {
         gl.ObjectLabel(Kind::identifier, id, static_cast<GLsizei>(std::min(label.size(), max_label_bytes)),
                        label.data());
     }
-    Object(Object&& other) noexcept : m_gl(other.m_gl), m_id(std::exchange(other.m_id, 0)) {}
+    Object(Object&& other) noexcept
+        : m_gl(other.m_gl),
+          m_id(std::exchange(other.m_id, 0)),
+          m_memory_bytes(std::exchange(other.m_memory_bytes, 0)) {}
     Object& operator=(Object&& other) noexcept {
         std::swap(m_gl, other.m_gl);
         std::swap(m_id, other.m_id);
+        std::swap(m_memory_bytes, other.m_memory_bytes);
         return *this;
     }
     ~Object() {
@@ -36,11 +43,19 @@ class Object {
 
     GLuint id() const { return m_id; }
     explicit operator bool() const { return m_id != 0; }
+    /// For a buffer or texture that a function below made; 0 for other objects.
+    std::int64_t memory_bytes() const { return m_memory_bytes; }
 
   private:
     const Functions* m_gl = nullptr;
     GLuint m_id = 0;
+    std::int64_t m_memory_bytes = 0;
 };
+
+/// The sum over objects, and over anything made of them that has memory_bytes().
+std::int64_t memory_bytes_of(const auto&... holders) {
+    return (std::int64_t{0} + ... + holders.memory_bytes());
+}
 
 struct BufferKind {
     static constexpr GLenum identifier = GL_BUFFER;
@@ -80,14 +95,24 @@ Buffer make_buffer(const Functions& gl, std::string_view label, GLsizeiptr size_
 /// An immutable 2D texture with nearest filtering and clamped edges; change both with TextureParameteri.
 Texture make_texture_2d(const Functions& gl, std::string_view label, GLenum internal_format, int width_px,
                         int height_px, int levels = 1);
+/// One of `samples` samples per pixel, at fixed places.
+Texture make_texture_2d_multisample(const Functions& gl, std::string_view label, GLenum internal_format, int width_px,
+                                    int height_px, int samples);
 
-/// A framebuffer with the given colour textures (0..n-1) and depth texture (0 for none; one with
-/// stencil bits is the stencil attachment too). It draws to all of its colour textures.
+/// For a sized internal format. Throws std::logic_error for one that no texture here uses.
+int bytes_per_texel(GLenum internal_format);
+
+/// A framebuffer with the given color textures (0..n-1) and depth texture (0 for none; one with
+/// stencil bits is the stencil attachment too). It draws to all of its color textures.
 /// Throws RenderError naming `label` if it is not complete.
 Framebuffer make_framebuffer(const Functions& gl, std::string_view label, std::span<const GLuint> colors, GLuint depth);
 
 VertexArray make_vertex_array(const Functions& gl, std::string_view label);
 Query make_query(const Functions& gl, std::string_view label, GLenum target);
+
+/// The first texture unit for textures that are set by name. The units below it belong to the scene, whose shaders
+/// choose them with layout(binding).
+inline constexpr GLuint first_named_texture_unit = 8;
 
 /// A linked program. Throws RenderError with the driver's log, naming `label` and the stage, if it does not build.
 class Program {
@@ -102,10 +127,11 @@ class Program {
     const std::string& fragment_source() const { return m_fragment_source; }
     /// A program with the same vertex stage. Throws RenderError like the constructor.
     Program with_fragment_source(std::string_view label, std::string_view fragment_source) const;
-    /// Gives each uniform that both programs have the value that it has in `other`.
+    /// Gives each uniform that both programs have, including texture units, the value that it has in `other`. Throws
+    /// std::logic_error naming one whose type OpenGL 4.5 does not have.
     void copy_uniforms(const Program& other) const;
 
-    /// Sets a uniform by name; one that the compiler removed is passed over.
+    /// Sets a uniform by name; one that the compiler removed is ignored.
     void set(const char* name, int value) const;
     void set(const char* name, unsigned value) const;
     void set(const char* name, float value) const;
@@ -114,13 +140,22 @@ class Program {
     void set(const char* name, const glm::vec4& value) const;
     void set(const char* name, const glm::mat4& value) const;
 
+    /// Binds a texture to the sampler of this name, for the draws that follow until a texture is set on another
+    /// program. The program chooses the unit; its shaders do not name one. A sampler that the compiler removed is
+    /// ignored.
+    void set_texture(const char* name, const Texture& texture) const;
+
   private:
+    void copy_element(const Program& other, const std::string& name, GLenum type) const;
+
     const Functions* m_gl = nullptr;
     Object<ProgramKind> m_object;
     std::string m_vertex_source, m_fragment_source;
+    mutable std::vector<std::string> m_samplers;  ///< by texture unit, from first_named_texture_unit on
 };
 
-/// The text of a file below shaders/. Throws std::out_of_range naming the path if there is none.
-std::string_view shader_file(std::string_view path);
+/// The text of a file below shaders/, with a #line so that errors in it are reported with its path and its own lines.
+/// Throws std::out_of_range naming the path if there is none.
+std::string shader_file(std::string_view path);
 
 }  // namespace sheer::gl

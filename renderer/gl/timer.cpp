@@ -26,9 +26,9 @@ bool clocks_agree(const FrameSample& sample) {
 
 }  // namespace
 
-/// Where the stamps of `flush-timer-queries` are rasterised. The begin of a query is stamped per tile of the
-/// framebuffer that the driver saw in use last, which may have no tile at all: then there is no stamp, and the result
-/// is the time since the machine started. A clear of this one makes it the last, and leaves GL's own binding alone.
+/// Where the time stamps of `flush-timer-queries` are rasterised. The begin of a query is stamped per tile of the
+/// framebuffer that the driver used last, which may have no tile at all: then there is no stamp, and the result is the
+/// time since the machine started. Clearing this framebuffer makes it the last one and does not change GL's binding.
 class FrameTimer::StampTarget {
   public:
     explicit StampTarget(const Functions& gl) : m_gl(gl), m_color(make_texture_2d(gl, "timer stamps", GL_RGBA8, 1, 1)) {
@@ -91,14 +91,32 @@ FrameTimer::Pass::~Pass() {
     if (m_timer != nullptr) m_timer->end_pass();
 }
 
-void FrameTimer::begin_frame(bool timed) {
-    if (m_state->in_frame) throw std::logic_error("begin_frame within a frame");
+FrameTimer::Frame::Frame(Frame&& other) noexcept : m_timer(std::exchange(other.m_timer, nullptr)) {}
+
+FrameTimer::Frame::~Frame() {
+    if (m_timer != nullptr) m_timer->end_frame();
+}
+
+FrameSample FrameTimer::Frame::end() {
+    if (m_timer == nullptr || m_timer->m_state->in_pass)
+        throw std::logic_error("a frame is ended twice or within a pass");
+    State& state = *std::exchange(m_timer, nullptr)->m_state;
+    state.in_frame = false;
+    state.gl.Finish();
+    if (state.timed) state.read_clocks();
+    return std::exchange(state.sample, {});
+}
+
+FrameTimer::Frame FrameTimer::frame(bool timed) {
+    if (m_state->in_frame) throw std::logic_error("a frame within a frame");
     m_state->in_frame = true;
     m_state->timed = timed;
     m_state->sample = {};
-    if (!timed) return;
-    m_state->gl.Finish();
-    m_state->start = Clock::now();
+    if (timed) {
+        m_state->gl.Finish();
+        m_state->start = Clock::now();
+    }
+    return Frame(this);
 }
 
 FrameTimer::Pass FrameTimer::pass(std::string name, Phase phase) {
@@ -118,12 +136,9 @@ void FrameTimer::end_pass() {
     m_state->in_pass = false;
 }
 
-FrameSample FrameTimer::end_frame() {
-    if (!m_state->in_frame || m_state->in_pass) throw std::logic_error("end_frame outside of a frame or within a pass");
+void FrameTimer::end_frame() {
     m_state->in_frame = false;
     m_state->gl.Finish();
-    if (m_state->timed) m_state->read_clocks();
-    return std::exchange(m_state->sample, {});
 }
 
 }  // namespace sheer::gl

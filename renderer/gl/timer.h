@@ -21,15 +21,15 @@ struct PassSample {
 struct FrameSample {
     double wall_ms = 0;  ///< monotonic clock from an idle pipeline to an idle pipeline (glFinish on both sides)
     double gpu_ms = 0;   ///< sum of the passes' GL_TIME_ELAPSED
-    bool valid = true;   ///< false where the clocks disagree by more than 10 % on a frame of over 5 ms
+    bool valid = true;   ///< false if the clocks disagree by more than 10 % on a frame of over 5 ms
     std::vector<PassSample> passes;
 };
 
 /// Divides a frame into named passes; times them if asked to. Every pass is also a debug group.
 ///
-///     timer.begin_frame(true);
+///     FrameTimer::Frame frame = timer.frame(true);
 ///     { auto pass = timer.pass("transparent", Phase::transparent); ... }
-///     FrameSample sample = timer.end_frame();
+///     FrameSample sample = frame.end();
 ///
 /// GL_TIME_ELAPSED is wrong on llvmpipe unless a glFlush follows its begin: see the workaround `flush-timer-queries`.
 class FrameTimer {
@@ -50,15 +50,31 @@ class FrameTimer {
         FrameTimer* m_timer;
     };
 
-    void begin_frame(bool timed);
+    /// Ends when it goes out of scope, if it was not ended before; the timer is then ready for the next frame.
+    class [[nodiscard]] Frame {
+      public:
+        Frame(Frame&& other) noexcept;
+        Frame& operator=(Frame&&) = delete;
+        ~Frame();
+        /// Waits until the frame is done. Without timing all times are 0. Throws std::logic_error within a pass, or if
+        /// it has ended.
+        FrameSample end();
+
+      private:
+        friend class FrameTimer;
+        explicit Frame(FrameTimer* timer) : m_timer(timer) {}
+        FrameTimer* m_timer;
+    };
+
+    /// Frames do not nest.
+    Frame frame(bool timed);
     Pass pass(std::string name, Phase phase);
-    /// Waits until the frame is done. Without timing all times are 0.
-    FrameSample end_frame();
 
   private:
     class StampTarget;
     struct State;
     void end_pass();
+    void end_frame();
     std::unique_ptr<State> m_state;
 };
 

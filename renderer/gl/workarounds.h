@@ -8,7 +8,7 @@ namespace sheer::gl {
 
 struct DeviceInfo;
 
-/// A driver's fault that Sheer works around. Each has a name (the switch and the report say it) and a paragraph.
+/// A driver bug that Sheer works around. Each has a name, which the switch and the report use, and a paragraph.
 struct Workaround {
     std::string_view name;
     std::string_view paragraph;

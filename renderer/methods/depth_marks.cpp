@@ -1,36 +1,42 @@
 // Depth marks: early ray termination of Krueger and Westermann, "Acceleration Techniques for GPU-based Volume
-// Rendering", VIS 2003, as told in Vlcek, Havel, Herout, SCCG 2010, sections 1 and 4. Front-to-back blending; after
-// every `interval` primitives an invisible full-screen pass writes the nearest depth where the transmittance that is
-// left is under `threshold`. From then on the depth test rejects fragments of those pixels before they are shaded. A
-// marked pixel fails the depth test of later marks, so that it is written once. Good at: no shader starts for a hidden
-// fragment; needs no reading of the render target. Bad at: each mark reads the whole picture; what comes between
-// saturation and the next mark is shaded in vain. Parameters: `interval` primitives between marks, 1..1000000, 16;
-// `threshold` 0..1, 0.01 (at 0 nothing is marked).
+// Rendering", VIS 2003, as described in Vlcek, Havel, Herout, SCCG 2010, sections 1 and 4. Front-to-back blending;
+// after every `interval` primitives an invisible full-screen pass writes the nearest depth where the remaining
+// transmittance is under `threshold`. From then on the depth test rejects fragments of those pixels before they are
+// shaded. A marked pixel fails the depth test of later marks, so it is written only once.
 #include <algorithm>
 #include <span>
 
-#include "renderer/frame/accumulation.h"
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
+#include "renderer/passes/accumulation.h"
 
 namespace sheer {
 
 namespace {
 
-class DepthMarks : public Method {
+struct DepthMarksParameters {
+    std::size_t interval = 16;
+    double threshold = 0.01;
+
+    static ParamTable<DepthMarksParameters> table() {
+        return ParamTable<DepthMarksParameters>()
+            .integer(&DepthMarksParameters::interval, "interval", "primitives between marks", "", 1, 1000000)
+            .number(&DepthMarksParameters::threshold, "threshold",
+                    "a pixel is marked when less than this transmittance is left; 0 marks none", "", 0, 1);
+    }
+};
+
+class DepthMarks : public OpaqueFirst {
   public:
-    explicit DepthMarks(const MethodSetup& setup)
-        : m_gl(setup.gl),
-          m_scene(setup.scene),
-          m_target(setup.target),
-          m_interval(setup.parameters.at("interval").get<std::size_t>()),
-          m_opaque(setup.gl, setup.scene, setup.target),
+    DepthMarks(const MethodSetup& setup, const DepthMarksParameters& parameters)
+        : OpaqueFirst(setup),
+          m_interval(parameters.interval),
           m_accumulation(setup.gl, setup.target, setup.target.format()),
           m_program(setup.scene.make_program("depth marks", gl::shader_file("methods/f2b.glsl"),
                                              "layout(early_fragment_tests) in;\n")),
           m_mark(setup.gl, "depth marks: mark", gl::shader_file("common/saturated.glsl")),
           m_depth_only(
               gl::make_framebuffer(setup.gl, "depth marks", std::span<const GLuint>(), setup.target.depth().id())) {
-        m_mark.program().set("u_threshold", setup.parameters.at("threshold").get<float>());
+        m_mark.program().set("u_threshold", static_cast<float>(parameters.threshold));
     }
 
     void render(gl::FrameTimer& timer) override {
@@ -44,7 +50,7 @@ class DepthMarks : public Method {
             const std::size_t count = m_scene.transparent_count();
             for (std::size_t first = 0; first < count; first += m_interval) {
                 if (first > 0) mark();
-                m_accumulation.begin_blending();
+                const Pass drawing = m_accumulation.blending();
                 m_scene.draw_transparent(m_program, Order::near_to_far, first, std::min(m_interval, count - first));
             }
         }
@@ -57,11 +63,12 @@ class DepthMarks : public Method {
         const std::vector<std::size_t> rejected = draws.failed();
         std::vector<PixelFact> facts = {
             fragments_fact("blended", draws.passed(),
-                           "The fragments that were shaded, those in vain included that came between saturation and "
-                           "the mark."),
+                           "The fragments that were shaded, including those shaded in vain between saturation and the "
+                           "mark."),
             fragments_fact("rejected", rejected, "The fragments that failed the depth test against the mark."),
-            fragment_fact("marked_before", rejected.empty() ? std::nullopt : std::optional(rejected.front()),
-                          "The first fragment that found the pixel marked; none if it was not marked in time.")};
+            fragment_fact(
+                "marked_before", rejected.empty() ? std::nullopt : std::optional(rejected.front()),
+                "The first fragment at which the pixel was already marked; none if it was not marked in time.")};
         add_accumulated(facts, draws.color);
         return facts;
     }
@@ -69,20 +76,15 @@ class DepthMarks : public Method {
     std::int64_t memory_bytes() const override { return m_accumulation.memory_bytes(); }
 
   private:
-    /// The marks go into the target's own depth, which nothing needs after the opaque pass but the depth test.
+    /// The marks go into the target's own depth, which after the opaque pass is needed only by the depth test.
     void mark() const {
-        begin_pass(m_gl, m_depth_only, m_target.width_px(), m_target.height_px());
-        m_gl.Enable(GL_DEPTH_TEST);
-        m_gl.DepthFunc(GL_LESS);
-        m_gl.BindTextureUnit(first_method_texture_unit, m_accumulation.readable_alpha().id());
+        Pass marking = begin(m_depth_only);
+        marking.depth_test(GL_LESS);
+        m_mark.program().set_texture("u_accumulation", m_accumulation.readable_alpha());
         m_mark.draw();
     }
 
-    const gl::Functions& m_gl;
-    const Scene& m_scene;
-    const Target& m_target;
     std::size_t m_interval;
-    OpaquePass m_opaque;
     Accumulation m_accumulation;
     gl::Program m_program;
     FullscreenPass m_mark;
@@ -92,23 +94,21 @@ class DepthMarks : public Method {
 }  // namespace
 
 MethodInfo method_depth_marks() {
-    return {
-        .id = "depth_marks",
-        .name = "Depth marks",
-        .kind = "sorted blending with early discard",
-        .summary = "F2B; now and then the nearest depth is written where the pixel is already as good as opaque.",
-        .paper = "Krueger and Westermann, Acceleration Techniques for GPU-based Volume Rendering, VIS 2003",
-        .good_at = "Hidden fragments fail the depth test before any shader starts; no feedback, no barriers.",
-        .bad_at =
-            "A full-screen pass and state changes after every few primitives; what lies between saturation and "
-            "the next mark is shaded in vain.",
-        .memory = "one pixel of the image format",
-        .parameters = {Param::integer("interval", "primitives between marks", "", 16, 1, 1000000),
-                       Param::number("threshold",
-                                     "a pixel is marked where less than this transmittance is left; at 0 none is", "",
-                                     0.01, 0, 1)},
-        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> { return std::make_unique<DepthMarks>(setup); },
-    };
+    return describe_method(
+        {
+            .id = "depth_marks",
+            .name = "Depth marks",
+            .kind = "sorted blending with early discard",
+            .summary = "F2B; at intervals, the nearest depth is written to pixels that are already practically opaque.",
+            .paper = "Krueger and Westermann, Acceleration Techniques for GPU-based Volume Rendering, VIS 2003",
+            .good_at = "Hidden fragments fail the depth test before any shader starts; no feedback, no barriers.",
+            .bad_at =
+                "A full-screen pass and state changes after every few primitives; fragments between saturation and "
+                "the next mark are shaded in vain.",
+            .memory = "one pixel of the image format",
+            .saturation_parameter = "threshold",
+        },
+        DepthMarksParameters::table(), make_new<DepthMarks>);
 }
 
 }  // namespace sheer

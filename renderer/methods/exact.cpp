@@ -1,27 +1,43 @@
 // The reference: every fragment of a pixel is kept, sorted by depth and composited with the opaque picture in 32-bit
-// floats. The target's rounding is the only one.
+// floats. It is rounded only once, to the target's format.
 // Lists: per-pixel linked lists with atomics (Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List
 // Construction on the GPU, EGSR 2010). The fragments are counted first, and the image is cut into tiles whose fragments
-// fit the memory, so that none is ever dropped. In the first frame the fragments that were drawn are held against those
-// that were counted: should a driver draw more, the method fails rather than lose one. Each list is sorted by merging
-// runs, in several passes, because a shader's loops may have an iteration limit (65,535 on llvmpipe). Sorted: where the
-// primitives are parallel, drawing them from near to far into 32-bit floats gives the same picture faster; form `auto`
-// then takes it. Good at: being right. Bad at: memory and time. Parameters: `form` auto, lists or sorted; `memory_mib`
-// for the lists.
+// fit the memory, so that none is ever dropped. In the first frame the number of fragments drawn is compared with the
+// number counted: if a driver draws more, the method fails rather than lose one. Each list is sorted by merging runs,
+// in several passes, because a shader's loops may have an iteration limit (65,535 on llvmpipe).
+// Sorted: if the primitives are parallel, drawing them from near to far into 32-bit floats gives the same picture
+// faster; form `auto` then uses it.
 #include <algorithm>
 #include <array>
 
-#include "renderer/frame/accumulation.h"
-#include "renderer/frame/float_opaque.h"
-#include "renderer/frame/overdraw.h"
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
+#include "renderer/passes/accumulation.h"
+#include "renderer/passes/float_opaque.h"
+#include "renderer/passes/overdraw.h"
 
 namespace sheer {
 
 namespace {
 
-constexpr std::int64_t node_bytes = 28;      // colour 16, depth 4, primitive 4, next 4
+constexpr std::int64_t node_bytes = 28;      // color 16, depth 4, primitive 4, next 4
 constexpr std::int64_t loop_budget = 40000;  // iterations in one pass, under llvmpipe's 65,535
+
+struct ExactParameters {
+    enum class Form { automatic, lists, sorted };
+
+    Form form = Form::automatic;
+    std::int64_t memory_mib = 256;
+
+    static ParamTable<ExactParameters> table() {
+        return ParamTable<ExactParameters>()
+            .choice(&ExactParameters::form, "form",
+                    "per-pixel lists, or sorted blending into 32-bit floats, which is as exact if "
+                    "primitives are parallel; auto uses sorted if possible",
+                    {{"auto", Form::automatic}, {"lists", Form::lists}, {"sorted", Form::sorted}})
+            .integer(&ExactParameters::memory_mib, "memory_mib",
+                     "memory for the lists; the image is cut into tiles that fit", "MiB", 1, 4096);
+    }
+};
 
 struct ScreenTile {
     int x0, y0, x1, y1;
@@ -52,7 +68,7 @@ void divide(const PixelCounts& overdraw, ScreenTile tile, std::uint64_t capacity
 
 class LinkedLists : public Method {
   public:
-    explicit LinkedLists(const MethodSetup& setup)
+    LinkedLists(const MethodSetup& setup, const ExactParameters& parameters)
         : m_gl(setup.gl),
           m_scene(setup.scene),
           m_target(setup.target),
@@ -62,7 +78,7 @@ class LinkedLists : public Method {
           m_composite(setup.gl, "exact: composite", source("composite")) {
         std::int64_t largest_block = 0;
         m_gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest_block);
-        const std::int64_t wanted = setup.parameters.at("memory_mib").get<std::int64_t>() << 20;
+        const std::int64_t wanted = parameters.memory_mib << 20;
         m_capacity = static_cast<std::uint64_t>(std::min(largest_block, wanted) / node_bytes);
     }
 
@@ -84,10 +100,10 @@ class LinkedLists : public Method {
                  {{"fragments", m_overdraw.total()},
                   {"kept", m_kept},
                   {"tiles", m_tiles.size()},
-                  {"memory_bytes", m_memory_bytes}}}};
+                  {"memory_bytes", gl::memory_bytes_of(m_nodes, m_heads)}}}};
     }
 
-    std::int64_t memory_bytes() const override { return m_memory_bytes + m_opaque.memory_bytes(); }
+    std::int64_t memory_bytes() const override { return gl::memory_bytes_of(m_nodes, m_heads, m_opaque); }
 
   private:
     static std::string source(const std::string& stage) {
@@ -112,31 +128,30 @@ class LinkedLists : public Method {
         const auto heads_bytes = static_cast<GLsizeiptr>((most_pixels + 1) * sizeof(std::uint32_t));
         m_nodes = gl::make_buffer(m_gl, "exact: nodes", nodes_bytes, nullptr);
         m_heads = gl::make_buffer(m_gl, "exact: heads", heads_bytes, nullptr);
-        m_memory_bytes = nodes_bytes + heads_bytes;
     }
 
     std::uint64_t counted_in(const ScreenTile& tile) const {
         return m_overdraw.total_in(tile.x0, tile.y0, tile.x1, tile.y1);
     }
 
-    /// Each fragment takes a number, also one that finds no room any more.
+    /// Every fragment takes a number, even one that finds no room.
     void require_all_kept(const ScreenTile& tile) {
         std::uint32_t drawn = 0;
         m_gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
         m_gl.GetNamedBufferSubData(m_heads.id(), 0, sizeof drawn, &drawn);
         if (drawn > counted_in(tile))
-            throw RenderError("exact: the driver drew " + std::to_string(drawn) + " fragments where it had counted " +
+            throw RenderError("exact: the driver drew " + std::to_string(drawn) + " fragments but had counted " +
                               std::to_string(counted_in(tile)) + "; some would be lost");
         m_kept += drawn;
     }
 
-    void begin_tile_pass(const ScreenTile& tile) const {
-        begin_pass(m_gl, m_target.framebuffer(), m_target.width_px(), m_target.height_px());
-        m_gl.Enable(GL_SCISSOR_TEST);
-        m_gl.Scissor(tile.x0, tile.y0, tile.width(), tile.height());
+    [[nodiscard]] Pass begin_tile(const ScreenTile& tile) const {
+        Pass drawing(m_gl, m_target);
+        drawing.scissor(tile.x0, tile.y0, tile.width(), tile.height());
         m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, m_nodes.id());
         m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, m_heads.id());
         m_gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+        return drawing;
     }
 
     static void set_tile(const gl::Program& program, const ScreenTile& tile) {
@@ -147,11 +162,11 @@ class LinkedLists : public Method {
 
     void build(const ScreenTile& tile, gl::FrameTimer& timer) const {
         const auto pass = timer.pass("build", gl::Phase::transparent);
-        begin_tile_pass(tile);
+        Pass drawing = begin_tile(tile);
         const std::uint32_t zero = 0;
         m_gl.ClearNamedBufferData(m_heads.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
-        set_transparent_depth_state(m_gl);
-        m_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        drawing.transparent_depth();
+        drawing.no_color();
         set_tile(m_build, tile);
         m_scene.draw_transparent(m_build, Order::submission);
     }
@@ -159,18 +174,18 @@ class LinkedLists : public Method {
     void sort_and_composite(const ScreenTile& tile, gl::FrameTimer& timer) const {
         const auto pass = timer.pass("resolve", gl::Phase::finalization);
         set_tile(m_sort.program(), tile);
-        // One merge of all runs walks a list about one and a half times.
+        // One merge of all runs traverses a list about one and a half times.
         const auto merges_per_pass =
             static_cast<int>(std::clamp<std::int64_t>(loop_budget / (2 * std::max(m_longest, 1u)), 1, 32));
         for (std::uint64_t run = 1; run < m_longest; run <<= merges_per_pass) {
-            begin_tile_pass(tile);
-            m_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+            Pass drawing = begin_tile(tile);
+            drawing.no_color();
             m_sort.program().set("u_run", static_cast<unsigned>(run));
             m_sort.program().set("u_merges", merges_per_pass);
             m_sort.draw();
         }
-        begin_tile_pass(tile);
-        m_gl.BindTextureUnit(first_method_texture_unit, m_opaque.color().id());
+        const Pass drawing = begin_tile(tile);
+        m_composite.program().set_texture("u_opaque", m_opaque.color());
         set_tile(m_composite.program(), tile);
         m_composite.draw();
     }
@@ -187,11 +202,10 @@ class LinkedLists : public Method {
     std::uint32_t m_longest = 0;
     std::vector<ScreenTile> m_tiles;
     gl::Buffer m_nodes, m_heads;
-    std::int64_t m_memory_bytes = 0;
 };
 
-bool draws_sorted(const Scene& scene, const nlohmann::json& parameters) {
-    return scene.parallel() && parameters.at("form") != "lists";
+bool draws_sorted(const Scene& scene, const ExactParameters& parameters) {
+    return scene.parallel() && parameters.form != ExactParameters::Form::lists;
 }
 
 class SortedInFloats : public Method {
@@ -210,14 +224,14 @@ class SortedInFloats : public Method {
         }
         {
             const auto pass = timer.pass("transparent", gl::Phase::transparent);
-            m_accumulation.begin_blending();
+            const Pass drawing = m_accumulation.blending();
             m_scene.draw_transparent(m_program, Order::near_to_far);
         }
         const auto pass = timer.pass("composite", gl::Phase::finalization);
         m_opaque.composite(m_accumulation.color());
     }
 
-    std::int64_t memory_bytes() const override { return m_opaque.memory_bytes() + m_accumulation.memory_bytes(); }
+    std::int64_t memory_bytes() const override { return gl::memory_bytes_of(m_opaque, m_accumulation); }
 
   private:
     const Scene& m_scene;
@@ -226,35 +240,30 @@ class SortedInFloats : public Method {
     gl::Program m_program;
 };
 
-std::unique_ptr<Method> make(const MethodSetup& setup) {
-    if (setup.parameters.at("form") == "sorted" && !setup.scene.parallel())
-        throw Unsupported("form sorted needs parallel primitives; this scene's may intersect");
-    if (!draws_sorted(setup.scene, setup.parameters)) return std::make_unique<LinkedLists>(setup);
+std::unique_ptr<Method> make_exact(const MethodSetup& setup, const ExactParameters& parameters) {
+    if (parameters.form == ExactParameters::Form::sorted && !setup.scene.parallel())
+        throw Unsupported("form sorted needs parallel primitives, but those of this scene may intersect");
+    if (!draws_sorted(setup.scene, parameters)) return std::make_unique<LinkedLists>(setup, parameters);
     return std::make_unique<SortedInFloats>(setup);
 }
 
 }  // namespace
 
 MethodInfo method_exact() {
-    return {
-        .id = "exact",
-        .name = "Exact",
-        .kind = "reference",
-        .summary = "Every fragment of a pixel, sorted by depth and composited in 32-bit floats; rounded once.",
-        .paper = "Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List Construction on the GPU, EGSR 2010",
-        .good_at = "The right picture for any geometry, intersecting primitives included.",
-        .bad_at = "Memory and time grow with every fragment.",
-        .memory = "16 bytes per pixel and 28 bytes per fragment of a tile; 32 bytes per pixel in the sorted form",
-        .needs_sorting = false,
-        .sorts_here = draws_sorted,
-        .parameters = {Param::choice("form",
-                                     "per-pixel lists, or sorted blending into 32-bit floats, which is as exact where "
-                                     "primitives are parallel; auto takes sorted where it may",
-                                     "auto", {"auto", "lists", "sorted"}),
-                       Param::integer("memory_mib", "memory for the lists; the image is cut into tiles that fit", "MiB",
-                                      256, 1, 4096)},
-        .make = make,
-    };
+    return describe_method(
+        {
+            .id = "exact",
+            .name = "Exact",
+            .kind = "reference",
+            .summary = "Every fragment of a pixel, sorted by depth and composited in 32-bit floats; rounded once.",
+            .paper =
+                "Yang, Hensley, Gruen, Thibieroz, Real-Time Concurrent Linked List Construction on the GPU, EGSR 2010",
+            .good_at = "The correct picture for any geometry, including intersecting primitives.",
+            .bad_at = "Memory and time grow with every fragment.",
+            .memory = "16 bytes per pixel and 28 bytes per fragment of a tile; 32 bytes per pixel in the sorted form",
+            .needs_sorting = false,
+        },
+        ExactParameters::table(), make_exact, draws_sorted);
 }
 
 }  // namespace sheer

@@ -1,40 +1,77 @@
 // Screen-space alpha masking: Hathaway, "Alpha Blending as a Post-Process", GPU Pro (2010). Four passes, and a fifth
 // for what is not foliage:
 //   1. the opaque picture and its depth, at `opaque_msaa` samples; of the depths the nearest is kept, never a mean;
-//   2. a mask: the alpha of every fragment, its maximum in the colour channels and its sum in alpha (Table 3.1);
-//   3. the nearest colour, by alpha test at `alpha_reference`, without blending, with depth writes;
-//   4. lerp(opaque, colour, mask^2), with mask = lerp(maximum, sum, `mask_lerp`) (Listing 3.2);
-//   5. the last `drawn_after` objects as submitted, blended from far to near, tested against the depth that the colour
+//   2. a mask: the alpha of every fragment, its maximum in the color channels and its sum in alpha (Table 3.1);
+//   3. the nearest color, by alpha test at `alpha_reference`, without blending, with depth writes;
+//   4. lerp(opaque, color, mask^2), with mask = lerp(maximum, sum, `mask_lerp`) (Listing 3.2);
+//   5. the last `drawn_after` objects as submitted, blended from far to near, tested against the depth that the color
 //      pass wrote (section 3.7: grass, light shafts, particles).
-// Section 3.5.4 prints the two masks the other way round; the listing and the prose (85 % additive) agree, so they
-// hold. Good at: foliage: soft edges, intersections right per pixel, no sorting. Bad at: glass and smoke: only the
-// nearest colour is seen, however faint; where the mask is above 0 but no fragment passes the test, the clear colour
-// is. Parameters: `mask_lerp` 0..1, 0.85; `alpha_reference` 0..1, 64/255 (the article's range is 64/255 to 128/255);
-// `squared` true; `mask` combined, max or additive, combined; `opaque_msaa` 1 or 2 samples, 1; `clear_color` black;
-// `drawn_after` 0.
+// Section 3.5.4 prints the two masks the other way round; the listing and the prose (85 % additive) agree, so these are
+// followed. Where the mask is above 0 but no fragment passes the test, the clear color is visible.
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <stdexcept>
 
-#include "renderer/frame/multisample.h"
-#include "renderer/frame/texel.h"
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
+#include "renderer/passes/multisample.h"
+#include "renderer/passes/texel.h"
 
 namespace sheer {
 
 namespace {
 
-constexpr GLuint opaque_unit = first_method_texture_unit, mask_unit = opaque_unit + 1, foliage_unit = opaque_unit + 2;
+struct SsamParameters {
+    enum class Mask { combined, max, additive };
 
-class ScreenSpaceAlphaMask : public Method {
+    double mask_lerp = 0.85;
+    double alpha_reference = 64.0 / 255;
+    bool squared = true;
+    Mask mask = Mask::combined;
+    int opaque_msaa = 1;
+    std::array<double, 3> clear_color = {0, 0, 0};
+    std::size_t drawn_after = 0;
+
+    static ParamTable<SsamParameters> table() {
+        return ParamTable<SsamParameters>()
+            .number(&SsamParameters::mask_lerp, "mask_lerp", "share of the additive mask; the rest is the maximum", "",
+                    0, 1)
+            .number(&SsamParameters::alpha_reference, "alpha_reference",
+                    "the least alpha that gives color; the article's range is 64/255 to 128/255", "", 0, 1)
+            .boolean(&SsamParameters::squared, "squared", "blend by the square of the mask, which hides the halos")
+            .choice(&SsamParameters::mask, "mask",
+                    "both masks by mask_lerp, or one alone as in the article's first attempts",
+                    {{"combined", Mask::combined}, {"max", Mask::max}, {"additive", Mask::additive}})
+            .integer(&SsamParameters::opaque_msaa, "opaque_msaa",
+                     "samples per pixel of the opaque pass; 2 uses the lowest number from 2 up that the device has",
+                     "samples", 1, 2)
+            .color(&SsamParameters::clear_color, "clear_color", "what lies behind the nearest color")
+            .integer(&SsamParameters::drawn_after, "drawn_after",
+                     "so many of the last submitted transparent objects are not foliage: they are blended afterwards, "
+                     "tested against the foliage's depth",
+                     "", 0, 1000000);
+    }
+
+    /// The share of the additive mask.
+    double additive_part() const {
+        switch (mask) {
+            case Mask::combined:
+                return mask_lerp;
+            case Mask::max:
+                return 0;
+            case Mask::additive:
+                return 1;
+        }
+        throw std::logic_error("unknown mask");
+    }
+};
+
+class ScreenSpaceAlphaMask : public OpaqueFirst {
   public:
-    explicit ScreenSpaceAlphaMask(const MethodSetup& setup)
-        : m_gl(setup.gl),
-          m_scene(setup.scene),
-          m_target(setup.target),
-          m_clear_color(color(setup.parameters.at("clear_color"))),
-          m_foliage_count(foliage_count(setup)),
-          m_opaque(setup.gl, setup.scene, setup.target),
+    ScreenSpaceAlphaMask(const MethodSetup& setup, const SsamParameters& parameters)
+        : OpaqueFirst(setup),
+          m_clear_color(parameters.clear_color[0], parameters.clear_color[1], parameters.clear_color[2], 1),
+          m_foliage_count(m_scene.transparent_count() - std::min(parameters.drawn_after, m_scene.transparent_count())),
           m_draw_mask(setup.scene.make_program("ssam: mask", gl::shader_file("methods/ssam_mask.glsl"))),
           m_draw_color(setup.scene.make_program("ssam: color", gl::shader_file("methods/alpha_test.glsl"))),
           m_nearest_depth(setup.gl, "ssam: nearest depth", gl::shader_file("methods/ssam_nearest_depth.glsl")),
@@ -43,17 +80,12 @@ class ScreenSpaceAlphaMask : public Method {
           m_foliage(texture("foliage")),
           m_mask_framebuffer(framebuffer("mask", m_mask)),
           m_foliage_framebuffer(framebuffer("foliage", m_foliage)) {
-        const auto& parameters = setup.parameters;
         if (m_foliage_count < setup.scene.transparent_count())
             m_draw_after = setup.scene.make_program("ssam: after", gl::shader_file("methods/b2f.glsl"));
-        if (parameters.at("opaque_msaa") == 2) m_multisample.emplace(setup.gl, setup.target, 2);
-        m_draw_color.set("u_least_alpha", setup.scene.least_alpha(parameters.at("alpha_reference")));
-        const auto mask = parameters.at("mask").get<std::string>();
-        const float additive_part = mask == "combined" ? parameters.at("mask_lerp").get<float>()
-                                    : mask == "max"    ? 0.0f
-                                                       : 1.0f;
-        m_composite.program().set("u_additive_part", additive_part);
-        m_composite.program().set("u_squared", parameters.at("squared").get<bool>() ? 1 : 0);
+        if (parameters.opaque_msaa == 2) m_multisample.emplace(setup.gl, setup.target, 2);
+        m_draw_color.set("u_least_alpha", setup.scene.least_alpha(parameters.alpha_reference));
+        m_composite.program().set("u_additive_part", static_cast<float>(parameters.additive_part()));
+        m_composite.program().set("u_squared", parameters.squared ? 1 : 0);
     }
 
     void render(gl::FrameTimer& timer) override {
@@ -84,101 +116,82 @@ class ScreenSpaceAlphaMask : public Method {
     std::vector<PixelFact> explain(const PixelTrace& trace) const override {
         const int x = trace.x(), y = trace.y();
         const glm::vec4 masks = read_texel(m_gl, m_mask, x, y);
-        bind_parts();
+        set_textures();
         std::vector<PixelFact> facts = {
             fragment_fact("chosen", trace.of(m_draw_color).last_passed(),
-                          "The nearest fragment that passed the alpha test, whose colour is laid over the opaque "
-                          "picture; none if it is the clear colour."),
-            color_fact("color", glm::vec3(read_texel(m_gl, m_foliage, x, y)), "That colour."),
+                          "The nearest fragment that passed the alpha test; its color is laid over the opaque picture. "
+                          "None if the clear color is used."),
+            color_fact("color", glm::vec3(read_texel(m_gl, m_foliage, x, y)), "That color."),
             number_fact("mask_maximum", masks.r, "The greatest alpha of the pixel's fragments."),
             number_fact("mask_sum", masks.a, "The sum of their alphas; over 1 it counts as 1."),
-            number_fact("blend", shade_texel(m_gl, m_composite, m_target, x, y, 1).r,
-                        "How much of that colour is seen, made of the two masks; the rest is the opaque picture.")};
+            number_fact(
+                "blend", shade_texel(m_gl, m_composite, m_target, x, y, 1).r,
+                "How much of that color is seen, computed from the two masks; the rest is the opaque picture.")};
         if (m_foliage_count < m_scene.transparent_count())
             facts.push_back(
                 fragments_fact("after", trace.of(m_draw_after).passed(),
-                               "The fragments that are no foliage and were blended afterwards, far to near."));
+                               "The fragments that are not foliage and were blended afterwards, far to near."));
         return facts;
     }
 
     std::int64_t memory_bytes() const override {
-        const std::int64_t pixels = std::int64_t{m_target.width_px()} * m_target.height_px();
-        return 2 * pixels * bytes_per_pixel(m_target.format()) + (m_multisample ? m_multisample->memory_bytes() : 0);
+        return gl::memory_bytes_of(m_mask, m_foliage) + (m_multisample ? m_multisample->memory_bytes() : 0);
     }
 
   private:
-    static glm::vec4 color(const nlohmann::json& rgb) {
-        return {rgb.at(0).get<float>(), rgb.at(1).get<float>(), rgb.at(2).get<float>(), 1.0f};
-    }
-
-    static std::size_t foliage_count(const MethodSetup& setup) {
-        const auto after = setup.parameters.at("drawn_after").get<std::size_t>();
-        return setup.scene.transparent_count() - std::min(after, setup.scene.transparent_count());
-    }
-
     gl::Texture texture(const std::string& what) const {
-        return gl::make_texture_2d(m_gl, "ssam: " + what, gl_format(m_target.format()), m_target.width_px(),
-                                   m_target.height_px());
+        return m_target.make_texture("ssam: " + what, gl_format(m_target.format()));
     }
 
     gl::Framebuffer framebuffer(const std::string& what, const gl::Texture& texture) const {
         return gl::make_framebuffer(m_gl, "ssam: " + what, std::array{texture.id()}, m_target.depth().id());
     }
 
-    void begin(const gl::Framebuffer& framebuffer) const {
-        begin_pass(m_gl, framebuffer, m_target.width_px(), m_target.height_px());
-    }
-
     void resolve() const {
         m_multisample->resolve_color();
-        begin(m_target.framebuffer());
-        m_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        m_gl.Enable(GL_DEPTH_TEST);  // without it no depth is written
-        m_gl.DepthFunc(GL_ALWAYS);
-        m_gl.BindTextureUnit(first_method_texture_unit, m_multisample->depth().id());
+        Pass drawing = begin();
+        drawing.no_color();
+        drawing.depth_test(GL_ALWAYS);  // without a test no depth is written
+        m_nearest_depth.program().set_texture("u_depth", m_multisample->depth());
         m_nearest_depth.program().set("u_samples", m_multisample->samples());
         m_nearest_depth.draw();
     }
 
     void draw_mask() const {
-        const glm::vec4 zero(0);
-        begin(m_mask_framebuffer);
-        m_gl.ClearBufferfv(GL_COLOR, 0, &zero[0]);
-        set_transparent_depth_state(m_gl);
-        m_gl.Enable(GL_BLEND);
-        m_gl.BlendEquationSeparate(GL_MAX, GL_FUNC_ADD);
-        m_gl.BlendFunc(GL_ONE, GL_ONE);
+        Pass drawing = begin(m_mask_framebuffer);
+        drawing.clear_color(glm::vec4(0));
+        drawing.transparent_depth();
+        drawing.blend_equation(GL_MAX, GL_FUNC_ADD);
+        drawing.blend(GL_ONE, GL_ONE);
         m_scene.draw_transparent(m_draw_mask, Order::submission, 0, m_foliage_count);
     }
 
     void draw_color() const {
-        begin(m_foliage_framebuffer);
-        m_gl.ClearBufferfv(GL_COLOR, 0, &m_clear_color[0]);
-        m_gl.Enable(GL_DEPTH_TEST);
-        m_gl.DepthFunc(GL_LEQUAL);
+        Pass drawing = begin(m_foliage_framebuffer);
+        drawing.clear_color(m_clear_color);
+        drawing.depth_test(GL_LEQUAL);
         m_scene.draw_transparent(m_draw_color, Order::submission, 0, m_foliage_count);
     }
 
     /// Reads the target that it writes, each pixel once: defined after a texture barrier (OpenGL 4.5, section 9.3.1).
     void composite() const {
-        begin(m_target.framebuffer());
+        const Pass drawing = begin();
         m_gl.TextureBarrier();
-        bind_parts();
+        set_textures();
         m_composite.draw();
     }
 
-    void bind_parts() const {
-        m_gl.BindTextureUnit(opaque_unit, m_target.color().id());
-        m_gl.BindTextureUnit(mask_unit, m_mask.id());
-        m_gl.BindTextureUnit(foliage_unit, m_foliage.id());
+    void set_textures() const {
+        m_composite.program().set_texture("u_opaque", m_target.color());
+        m_composite.program().set_texture("u_mask", m_mask);
+        m_composite.program().set_texture("u_foliage", m_foliage);
     }
 
-    /// Those of a stretch that lie side by side in the order are drawn together.
+    /// Primitives that are adjacent in the order are drawn together.
     void draw_after() const {
-        begin(m_target.framebuffer());
-        set_transparent_depth_state(m_gl);
-        m_gl.Enable(GL_BLEND);
-        m_gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        Pass drawing = begin();
+        drawing.transparent_depth();
+        drawing.blend(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         const std::size_t count = m_scene.transparent_count();
         const std::uint32_t first_after = m_scene.primitive_at(Order::submission, m_foliage_count);
         const auto is_foliage = [&](std::size_t i) {
@@ -192,56 +205,34 @@ class ScreenSpaceAlphaMask : public Method {
         }
     }
 
-    const gl::Functions& m_gl;
-    const Scene& m_scene;
-    const Target& m_target;
     glm::vec4 m_clear_color;
-    std::size_t m_foliage_count;  ///< the first of the transparent primitives as submitted
-    OpaquePass m_opaque;
+    std::size_t m_foliage_count;  ///< the first transparent primitives in the order of submission
     gl::Program m_draw_mask, m_draw_color, m_draw_after;
     FullscreenPass m_nearest_depth, m_composite;
     gl::Texture m_mask, m_foliage;
     gl::Framebuffer m_mask_framebuffer, m_foliage_framebuffer;
-    std::optional<Multisample> m_multisample;  ///< where the opaque pass is not drawn straight into the target
+    std::optional<Multisample> m_multisample;  ///< if the opaque pass is not drawn directly into the target
 };
 
 }  // namespace
 
 MethodInfo method_ssam() {
-    return {
-        .id = "ssam",
-        .name = "SSAM",
-        .kind = "order-independent, approximate",
-        .summary =
-            "Screen-space alpha masking: the nearest colour by alpha test, laid over the opaque picture by a "
-            "mask of the alphas' maximum and sum.",
-        .paper = "Hathaway, Alpha Blending as a Post-Process, GPU Pro, 2010",
-        .good_at = "Foliage: soft edges and intersections without sorting; one blend per pixel, whatever the overdraw.",
-        .bad_at = "Glass and smoke: only the nearest colour shows, however faint; halos of the clear colour.",
-        .memory = "two pixels of the image format; with opaque_msaa 2 also the samples, colour and depth",
-        .needs_sorting = false,
-        .sorts_here = [](const Scene&, const nlohmann::json& parameters) { return parameters.at("drawn_after") > 0; },
-        .parameters = {Param::number("mask_lerp", "part of the additive mask; the rest is the maximum", "", 0.85, 0, 1),
-                       Param::number("alpha_reference",
-                                     "the least alpha that gives colour; the article's range is 64/255 to 128/255", "",
-                                     64.0 / 255, 0, 1),
-                       Param::boolean("squared", "blend by the square of the mask, which hides the halos", true),
-                       Param::choice("mask", "both masks by mask_lerp, or one alone as in the article's first attempts",
-                                     "combined", {"combined", "max", "additive"}),
-                       Param::integer("opaque_msaa",
-                                      "samples per pixel of the opaque pass; for 2, the fewest from 2 up that the "
-                                      "device has",
-                                      "samples", 1, 1, 2),
-                       Param::numbers("clear_color", "what lies behind the nearest colour: red, green, blue", "",
-                                      {0, 0, 0}, 0, 1),
-                       Param::integer("drawn_after",
-                                      "the last so many transparent objects, as submitted, are no foliage: they are "
-                                      "blended afterwards, tested against the foliage's depth",
-                                      "", 0, 0, 1000000)},
-        .make = [](const MethodSetup& setup) -> std::unique_ptr<Method> {
-            return std::make_unique<ScreenSpaceAlphaMask>(setup);
+    return describe_method(
+        {
+            .id = "ssam",
+            .name = "SSAM",
+            .kind = "order-independent, approximate",
+            .summary = "Screen-space alpha masking: the nearest color by alpha test, laid over the opaque picture by a "
+                       "mask of the alphas' maximum and sum.",
+            .paper = "Hathaway, Alpha Blending as a Post-Process, GPU Pro, 2010",
+            .good_at =
+                "Foliage: soft edges and intersections without sorting; one blend per pixel, whatever the overdraw.",
+            .bad_at = "Glass and smoke: only the nearest color shows, however faint; halos of the clear color.",
+            .memory = "two pixels of the image format; with opaque_msaa 2 also the samples, color and depth",
+            .needs_sorting = false,
         },
-    };
+        SsamParameters::table(), make_new<ScreenSpaceAlphaMask>,
+        [](const Scene&, const SsamParameters& parameters) { return parameters.drawn_after > 0; });
 }
 
 }  // namespace sheer

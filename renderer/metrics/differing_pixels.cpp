@@ -1,6 +1,6 @@
-// How many pixels are not exactly the reference's: zero is the proof that two methods agree.
+// How many pixels are not exactly the reference's: zero proves that two methods agree.
 
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
@@ -17,13 +17,19 @@ MetricValue compute_differing_pixels(const ImagePair& pair) {
 }  // namespace
 
 MetricInfo metric_differing_pixels() {
-    return {"differing_pixels",
-            "Differing pixels",
-            "Pixels whose red, green or blue differs from the reference's by at least one 8-bit level.",
-            "Count of unequal pixels",
-            "",
-            {{"", "pixels", "0..width*height", "Number of pixels that differ"}},
-            compute_differing_pixels};
+    return {.id = "differing_pixels",
+            .name = "Differing pixels",
+            .summary = "Pixels whose red, green or blue differs from the reference's by at least one 8-bit level.",
+            .source = "Count of unequal pixels",
+            .formula = "pixels with r ≠ t in any channel",
+            .good_for = "proving that two methods agree exactly",
+            .place = 60,
+            .fields = {{.kind = MetricField::Kind::count,
+                        .unit = "px",
+                        .range = "0..width*height",
+                        .summary = "Number of pixels that differ",
+                        .column = {.head = "Differing", .better = Better::lower, .terminal = {"differing px", 0}}}},
+            .compute = compute_differing_pixels};
 }
 
 }  // namespace sheer

@@ -1,20 +1,20 @@
 // FLIP: what a person sees when flipping between the two pictures on a screen.
 // Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: "FLIP: A Difference Evaluator for Alternating
-// Images", HPG 2020. The map is in renderer/frame/flip_map.cpp; here it is pooled and coloured.
+// Images", HPG 2020. The map is in renderer/metrics/shared/flip_map.cpp; here it is pooled and colored.
 
-#include "renderer/frame/flip_map.h"
+#include "renderer/metrics/shared/flip_map.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "renderer/frame/magma.h"
-#include "renderer/metrics/metric.h"
+#include "renderer/image/magma.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
 
-/// Order statistics of values in 0..1 in linear time and exactly: such floats are ordered as their bits are, so a
-/// histogram of the upper 16 bits finds the bin and one of the lower 16 bits in that bin finds the value.
+/// Exact order statistics of values in 0..1 in linear time: the order of such floats is that of their bits, so a
+/// histogram of the upper 16 bits finds the bin, and one of the lower 16 bits in that bin finds the value.
 class ErrorDistribution {
   public:
     explicit ErrorDistribution(const std::vector<float>& values) : m_values(values), m_count(bins), m_sum(bins) {
@@ -59,7 +59,7 @@ class ErrorDistribution {
             const auto bits = std::bit_cast<std::uint32_t>(value);
             if (bits >> 16 == bin) ++count[bits & 0xffff];
         }
-        double last = m_max;  // rounding of the sums may leave the target just out of reach
+        double last = m_max;  // the sums may just miss the target because of rounding
         for (std::size_t low = 0; low < bins; ++low) {
             if (count[low] == 0) continue;
             last = std::bit_cast<float>(std::uint32_t(bin << 16 | low));
@@ -76,11 +76,11 @@ class ErrorDistribution {
     double m_max = 0;
 };
 
-Image8 coloured(const std::vector<float>& map, int width, int height) {
+Image8 colored(const std::vector<float>& map, int width, int height) {
     Image8 picture(width, height);
     for (std::size_t i = 0; i < map.size(); ++i) {
-        const auto& colour = magma()[std::size_t(map[i] * 255 + 0.5f)];
-        std::copy(colour.begin(), colour.end(), &picture.rgb[i * 3]);
+        const auto& color = magma()[std::size_t(map[i] * 255 + 0.5f)];
+        std::copy(color.begin(), color.end(), &picture.rgb[i * 3]);
     }
     return picture;
 }
@@ -95,27 +95,40 @@ MetricValue compute_flip(const ImagePair& pair) {
              {"max", distribution.max()},
              {"p95", distribution.percentile(95)},
              {"p99", distribution.percentile(99)}},
-            coloured(map, pair.reference8.width_px, pair.reference8.height_px)};
+            colored(map, pair.reference8.width_px, pair.reference8.height_px)};
 }
 
 }  // namespace
 
 MetricInfo metric_flip() {
+    const auto over_pixels = [](std::string name, std::string summary, MetricColumn column = {}) {
+        return MetricField{
+            .name = std::move(name), .range = "0..1", .summary = std::move(summary), .column = std::move(column)};
+    };
     return {
-        "flip",
-        "FLIP",
-        "Visible difference when flipping between the pictures on a screen with 67 pixels per degree: 0 none, 1 the "
-        "greatest there is. The picture shows it per pixel in the magma colours, black to pale yellow for 0 to 1.",
-        "Andersson et al., FLIP: A Difference Evaluator for Alternating Images, HPG 2020 (LDR-FLIP)",
-        "flip",
-        {{"mean", "", "0..1", "Mean over the pixels"},
-         {"weighted_median", "", "0..1", "Value up to which the pixels hold half of the sum of all FLIP values"},
-         {"weighted_q1", "", "0..1", "Value up to which the pixels hold a quarter of the sum of all FLIP values"},
-         {"weighted_q3", "", "0..1", "Value up to which the pixels hold three quarters of the sum of all FLIP values"},
-         {"max", "", "0..1", "Greatest value of any pixel"},
-         {"p95", "", "0..1", "95th percentile of the pixels, nearest rank"},
-         {"p99", "", "0..1", "99th percentile of the pixels, nearest rank"}},
-        compute_flip};
+        .id = "flip",
+        .name = "FLIP",
+        .summary =
+            "Visible difference when flipping between the pictures on a screen with 67 pixels per degree: 0 is none, "
+            "1 the greatest possible. The picture shows it per pixel in magma colors, black to pale yellow for 0 to "
+            "1.",
+        .source = "Andersson et al., FLIP: A Difference Evaluator for Alternating Images, HPG 2020 (LDR-FLIP)",
+        .formula = "LDR-FLIP of the paper at 67 pixels per degree",
+        .good_for = "what a person notices when switching between the pictures; the best single measure for a preview",
+        .picture = "flip",
+        .place = 50,
+        .fields = {over_pixels("mean", "Mean over the pixels",
+                               {.head = "FLIP mean", .better = Better::lower, .terminal = {"FLIP", 4}}),
+                   over_pixels("weighted_median",
+                               "Value up to which the pixels account for half of the sum of all FLIP values"),
+                   over_pixels("weighted_q1",
+                               "Value up to which the pixels account for a quarter of the sum of all FLIP values"),
+                   over_pixels("weighted_q3",
+                               "Value up to which the pixels account for three quarters of the sum of all FLIP values"),
+                   over_pixels("max", "Greatest value of any pixel"),
+                   over_pixels("p95", "95th percentile of the pixels, nearest rank"),
+                   over_pixels("p99", "99th percentile of the pixels, nearest rank")},
+        .compute = compute_flip};
 }
 
 }  // namespace sheer

@@ -1,7 +1,7 @@
 // Errors of the float picture: what rounding to 8 bits hides, such as a difference below a level or values over 1.
 
-#include "renderer/metrics/float_errors.h"
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/float_errors.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
@@ -21,17 +21,23 @@ MetricValue compute_linear(const ImagePair& pair) {
 
 MetricInfo metric_linear() {
     return {
-        "linear",
-        "Float picture",
-        "Differences over red, green and blue of the float pictures, neither clamped nor rounded, in the values that "
-        "were blended. In the format rgba8 the method's values are multiples of 1/255. Null with a reason where a "
-        "value is not finite.",
-        "Textbook statistics: mean and greatest absolute difference, root of the mean square",
-        "",
-        {{"mean_abs", "", "0..", "Mean absolute difference"},
-         {"rmse", "", "0..", "Root mean square error"},
-         {"max_abs", "", "0..", "Greatest absolute difference of a channel"}},
-        compute_linear};
+        .id = "linear",
+        .name = "Float picture",
+        .summary =
+            "Differences over red, green and blue of the float pictures, neither clamped nor rounded, in the values "
+            "that were blended. In the format rgba8 the method's values are multiples of 1/255. Null with a reason "
+            "if a value is not finite.",
+        .source = "Textbook statistics: mean and greatest absolute difference, root of the mean square",
+        .formula = "mean and greatest |r − t| and √(Σ(r − t)² / n) of the float values",
+        .good_for = "errors smaller than a level or above white, which rounding and clamping hide",
+        .place = 55,
+        .fields = {{.name = "mean_abs", .range = "0..", .summary = "Mean absolute difference"},
+                   {.name = "rmse",
+                    .range = "0..",
+                    .summary = "Root mean square error",
+                    .column = {.head = "Float RMSE", .better = Better::lower}},
+                   {.name = "max_abs", .range = "0..", .summary = "Greatest absolute difference of a channel"}},
+        .compute = compute_linear};
 }
 
 }  // namespace sheer

@@ -1,8 +1,8 @@
-// Pixels that are no colour at all: a method that divides by a zero alpha or overflows its target shows here.
+// Pixels that are not valid colors: they appear if a method divides by a zero alpha or overflows its target.
 
 #include <bit>
 
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
@@ -23,15 +23,21 @@ MetricValue compute_non_finite(const ImagePair& pair) {
 }  // namespace
 
 MetricInfo metric_non_finite() {
-    return {"non_finite",
-            "Non-finite pixels",
-            "Pixels of the method's float picture with a NaN or an infinity in red, green, blue or alpha. The other "
-            "metrics "
-            "take such a colour for the level furthest from the reference.",
-            "IEEE 754 classification",
-            "",
-            {{"", "pixels", "0..width*height", "Number of pixels with a NaN or an infinity"}},
-            compute_non_finite};
+    return {.id = "non_finite",
+            .name = "Non-finite pixels",
+            .summary =
+                "Pixels of the method's float picture with a NaN or an infinity in red, green, blue or alpha. The "
+                "other metrics count such a channel as the level furthest from the reference.",
+            .source = "IEEE 754 classification",
+            .formula = "pixels with a NaN or an infinity in red, green, blue or alpha of the float picture",
+            .good_for = "divisions by zero, overflow of a half-float target",
+            .place = 70,
+            .fields = {{.kind = MetricField::Kind::count,
+                        .unit = "px",
+                        .range = "0..width*height",
+                        .summary = "Number of pixels with a NaN or an infinity",
+                        .column = {.head = "Non-finite", .better = Better::lower}}},
+            .compute = compute_non_finite};
 }
 
 }  // namespace sheer

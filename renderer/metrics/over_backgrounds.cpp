@@ -1,13 +1,13 @@
-// What a single background hides: a wrong transmittance shows nothing over black and everything over white. So both
-// pictures are compared over black, white and a checker, and the worst counts.
-// The checker's picture has each pixel from that over black or that over white: what a pixel shows is C + T B, and the
-// two give C and C + T.
+// Errors that a single background hides: a wrong transmittance is invisible over black and fully visible over white. So
+// both pictures are compared over black, white and a checker, and the worst counts.
+// The picture over the checker takes each pixel from the one over black or the one over white: a pixel is C + T B, and
+// these two give C and C + T.
 
 #include <algorithm>
 #include <array>
 
-#include "renderer/metrics/float_errors.h"
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/float_errors.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
@@ -64,21 +64,35 @@ MetricValue compute_over_backgrounds(const ImagePair& pair) {
 }  // namespace
 
 MetricInfo metric_over_backgrounds() {
-    return {"over_backgrounds",
-            "Over other backgrounds",
+    return {
+        .id = "over_backgrounds",
+        .name = "Over other backgrounds",
+        .summary =
             "Differences of the float pictures rendered over black, over white and over a checker of 8 px, so that a "
-            "wrong alpha shows whatever the background of the comparison is. Null with a reason where a value is not "
+            "wrong alpha is visible whatever the background of the comparison is. Null with a reason if a value is not "
             "finite.",
-            "Porter, Duff, Compositing Digital Images, SIGGRAPH 1984: a pixel over a background B is C + T B",
-            "",
-            {{"worst", "", "black, white or checker",
-              "The background with the greatest error; of equals the first, null where nothing differs", false},
-             {"rmse", "", "0..", "Root mean square error over the worst background"},
-             {"max_abs", "", "0..", "Greatest absolute difference of a channel over any of them"},
-             {"black", "", "0..", "Root mean square error over black"},
-             {"white", "", "0..", "Root mean square error over white"},
-             {"checker", "", "0..", "Root mean square error over the checker"}},
-            compute_over_backgrounds};
+        .source = "Porter, Duff, Compositing Digital Images, SIGGRAPH 1984: a pixel over a background B is C + T B",
+        .formula = "the greatest √(Σ(r − t)² / n) of the float values over black, white and a checker",
+        .good_for = "a wrong alpha, whatever the background of the comparison is",
+        .place = 57,
+        .fields =
+            {{.name = "worst",
+              .kind = MetricField::Kind::text,
+              .range = "black, white or checker",
+              .summary =
+                  "The background with the greatest error, the first if several are equal; null if nothing differs",
+              .null_is_identical = true},
+             {.name = "rmse",
+              .range = "0..",
+              .summary = "Root mean square error over the worst background",
+              .column = {.head = "Worst background", .better = Better::lower, .note = "worst"}},
+             {.name = "max_abs",
+              .range = "0..",
+              .summary = "Greatest absolute difference of a channel over any of the backgrounds"},
+             {.name = "black", .range = "0..", .summary = "Root mean square error over black"},
+             {.name = "white", .range = "0..", .summary = "Root mean square error over white"},
+             {.name = "checker", .range = "0..", .summary = "Root mean square error over the checker"}},
+        .compute = compute_over_backgrounds};
 }
 
 }  // namespace sheer

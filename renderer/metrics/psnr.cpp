@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "renderer/metrics/level_errors.h"
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/level_errors.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
@@ -18,15 +18,23 @@ MetricValue compute_psnr(const ImagePair& pair) {
 }  // namespace
 
 MetricInfo metric_psnr() {
-    return {
-        "psnr",
-        "PSNR",
-        "Peak signal-to-noise ratio over red, green and blue of the 8-bit pictures with peak 1; null where the "
-        "pictures are identical.",
-        "Huynh-Thu and Ghanbari, Scope of Validity of PSNR in Image/Video Quality Assessment, Electronics Letters 2008",
-        "",
-        {{"", "dB", "0..", "Peak signal-to-noise ratio; null where identical"}},
-        compute_psnr};
+    return {.id = "psnr",
+            .name = "PSNR",
+            .summary =
+                "Peak signal-to-noise ratio over red, green and blue of the 8-bit pictures with peak 1; null if the "
+                "pictures are identical.",
+            .source =
+                "Huynh-Thu and Ghanbari, Scope of Validity of PSNR in Image/Video Quality Assessment, Electronics "
+                "Letters 2008",
+            .formula = "−20 log₁₀(rmse): the peak is 1, the format's, not the picture's",
+            .good_for = "the same on a scale on which errors at 40 dB and more are hard to see",
+            .place = 30,
+            .fields = {{.unit = "dB",
+                        .range = "0..",
+                        .summary = "Peak signal-to-noise ratio; null if the pictures are identical",
+                        .null_is_identical = true,
+                        .column = {.head = "PSNR", .better = Better::higher, .terminal = {"PSNR dB", 1}}}},
+            .compute = compute_psnr};
 }
 
 }  // namespace sheer

@@ -1,17 +1,18 @@
-// Signed difference: how far off the method is, and in which direction, as Table 6 of the front-to-back paper gives it.
+// Signed difference: how far off the method is, and in which direction, as in Table 6 of the front-to-back paper.
 // Vlček, Havel, Herout: "Front-to-Back Blending with Early Fragment Discarding", SCCG 2010.
 
 #include <array>
 #include <cmath>
 
-#include "renderer/metrics/level_errors.h"
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/level_errors.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
 
-/// Level of the picture for a difference of -255..255, at [difference + 255]. The square root lets a single level show
-/// (8 of 255) and still keeps the largest difference in range, so that pictures of different methods can be compared.
+/// Level of the picture for a difference of -255..255, at [difference + 255]. The square root makes a single level
+/// visible (8 of 255) and still keeps the largest difference in range, so that pictures of different methods can be
+/// compared.
 std::array<std::uint8_t, 511> picture_levels() {
     std::array<std::uint8_t, 511> levels{};
     for (int difference = -255; difference <= 255; ++difference) {
@@ -44,17 +45,35 @@ MetricValue compute_signed(const ImagePair& pair) {
 
 MetricInfo metric_signed() {
     return {
-        "signed",
-        "Signed difference",
-        "Reference minus method in 8-bit levels over red, green and blue. In the picture mid grey (128) is no "
-        "difference, brighter is where the reference is brighter; a difference of d levels is 127 sqrt(|d|/255) away "
-        "from grey, so that one level shows and 255 fit.",
-        "Vlček, Havel, Herout, Front-to-Back Blending with Early Fragment Discarding, SCCG 2010, Table 6",
-        "difference",
-        {{"mean_abs", "levels", "0..255", "Mean of the absolute differences"},
-         {"min", "levels", "-255..255", "Smallest difference: where the method is too bright"},
-         {"max", "levels", "-255..255", "Greatest difference: where the method is too dark"}},
-        compute_signed};
+        .id = "signed",
+        .name = "Signed difference",
+        .summary =
+            "Reference minus method in 8-bit levels over red, green and blue. In the picture mid grey (128) is no "
+            "difference, brighter is where the reference is brighter; a difference of d levels is 127 sqrt(|d|/255) "
+            "away from grey, so that one level is visible and 255 still fit.",
+        .source = "Vlček, Havel, Herout, Front-to-Back Blending with Early Fragment Discarding, SCCG 2010, Table 6",
+        .formula = "Σ|r − t| / n, min(r − t), max(r − t)",
+        .good_for =
+            "comparing with Table 6 of the paper; seeing whether a method is too bright (negative) or too dark "
+            "(positive)",
+        .picture = "difference",
+        .place = 10,
+        .fields = {{.name = "mean_abs",
+                    .unit = "levels",
+                    .range = "0..255",
+                    .summary = "Mean of the absolute differences",
+                    .column = {.head = "Mean |Δ|", .better = Better::lower, .terminal = {"mean |d|", 3}}},
+                   {.name = "min",
+                    .unit = "levels",
+                    .range = "-255..255",
+                    .summary = "Smallest difference: where the method is too bright",
+                    .column = {.head = "Min Δ", .better = Better::nearer_zero, .terminal = {"min d", 0}}},
+                   {.name = "max",
+                    .unit = "levels",
+                    .range = "-255..255",
+                    .summary = "Greatest difference: where the method is too dark",
+                    .column = {.head = "Max Δ", .better = Better::nearer_zero, .terminal = {"max d", 0}}}},
+        .compute = compute_signed};
 }
 
 }  // namespace sheer

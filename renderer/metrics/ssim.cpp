@@ -1,8 +1,8 @@
-// SSIM: how alike the structure of the two pictures is, window by window.
+// SSIM: how similar the structure of the two pictures is, window by window.
 // Wang, Bovik, Sheikh, Simoncelli: "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE
 // Transactions on Image Processing 13(4), 2004, equation 13.
 //
-// The mean over red, green and blue and over all windows of 11x11 Gaussian weights (sigma 1.5) that lie wholly inside
+// The mean over red, green and blue and over all windows of 11x11 Gaussian weights (sigma 1.5) that are wholly inside
 // the picture, so no border is invented; K1 = 0.01, K2 = 0.03, range 255, no downsampling. A picture narrower than the
 // window gets the widest odd window that fits, with the weights scaled to sum to 1.
 
@@ -10,9 +10,9 @@
 #include <memory>
 #include <numeric>
 
-#include "renderer/frame/taps.h"
-#include "renderer/frame/work_queue.h"
-#include "renderer/metrics/metric.h"
+#include "renderer/core/work_queue.h"
+#include "renderer/metrics/shared/metric.h"
+#include "renderer/metrics/shared/taps.h"
 
 namespace sheer {
 namespace {
@@ -30,9 +30,10 @@ constexpr int ssim_source_height = ssim_tile_height + 2 * window_radius;
 using SsimRow = std::array<float, ssim_tile_width>;
 using SsimSourceRow = std::array<float, ssim_source_width>;
 
-/// Room for one thread. Instead of the moments of x and y, those of s = x + y and d = x - y are taken:
-/// 2 cov(x, y) = (var s - var d) / 2 and var x + var y = (var s + var d) / 2, and so for the means. Where the pictures
-/// are nearly alike d is small and exact, and the rounding of var s cancels between numerator and denominator.
+/// Working memory of one thread. Instead of the moments of x and y, those of s = x + y and d = x - y are used:
+/// 2 cov(x, y) = (var s - var d) / 2 and var x + var y = (var s + var d) / 2, and likewise for the means. Where the
+/// pictures are nearly equal, d is small and exact, and the rounding of var s cancels between numerator and
+/// denominator.
 struct SsimScratch {
     SsimSourceRow sum, difference, sum_squared, difference_squared;
     std::array<SsimRow, ssim_source_height> sum_x, difference_x, sum_squared_x,
@@ -56,7 +57,7 @@ struct Windows {
     }
 };
 
-/// The sum is kept around 0, so that its square loses fewer bits; a shift leaves the variance as it is.
+/// The sum is kept around 0, so that its square loses fewer bits; a shift does not change the variance.
 constexpr float middle_level = 255;
 
 struct SsimTile {
@@ -68,7 +69,7 @@ void filter_rows(const ImagePair& pair, const Windows& windows, const SsimTile& 
     const int last_x = pair.reference8.width_px - 1;
     const int last_y = pair.reference8.height_px - 1;
     for (int y = 0; y < tile.height + 2 * window_radius; ++y) {
-        // Pixels outside the picture meet taps of 0 or centres that do not count: any finite value does.
+        // Pixels outside the picture meet taps of 0 or centres that do not count: any finite value will do.
         const int from_y = std::clamp(tile.top + y - window_radius, 0, last_y);
         const std::uint8_t* one = pair.reference8.pixel(0, from_y) + channel;
         const std::uint8_t* two = pair.test8.pixel(0, from_y) + channel;
@@ -142,14 +143,20 @@ MetricValue compute_ssim(const ImagePair& pair) {
 
 MetricInfo metric_ssim() {
     return {
-        "ssim",
-        "SSIM",
-        "Structural similarity, mean over red, green and blue and over the 11x11 Gaussian windows that lie wholly in "
-        "the picture; 1 where the pictures are identical.",
-        "Wang et al., Image Quality Assessment: From Error Visibility to Structural Similarity, IEEE TIP 2004",
-        "",
-        {{"", "", "-1..1", "Mean structural similarity"}},
-        compute_ssim};
+        .id = "ssim",
+        .name = "SSIM",
+        .summary =
+            "Structural similarity, mean over red, green and blue and over the 11x11 Gaussian windows that are wholly "
+            "inside the picture; 1 if the pictures are identical.",
+        .source =
+            "Wang et al., Image Quality Assessment: From Error Visibility to Structural Similarity, IEEE TIP 2004",
+        .formula = "mean of Wang's SSIM, equation 13",
+        .good_for = "structure: blurred or lost texture that leaves the mean color alone",
+        .place = 40,
+        .fields = {{.range = "-1..1",
+                    .summary = "Mean structural similarity",
+                    .column = {.head = "SSIM", .better = Better::higher, .digits = 4, .terminal = {"SSIM", 4}}}},
+        .compute = compute_ssim};
 }
 
 }  // namespace sheer

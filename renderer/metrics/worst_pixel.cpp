@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer {
 namespace {
@@ -27,14 +27,22 @@ MetricValue compute_worst_pixel(const ImagePair& pair) {
 
 MetricInfo metric_worst_pixel() {
     return {
-        "worst_pixel",
-        "Worst pixel",
-        "[x, y] of the pixel with the greatest sum of absolute differences of its 8-bit red, green and blue, the first "
-        "in row order where several share it; origin top left; null where the pictures are identical.",
-        "Greatest L1 distance per pixel",
-        "",
-        {{"", "px", "[0..width-1, 0..height-1]", "Position of the worst pixel; null where identical", false}},
-        compute_worst_pixel};
+        .id = "worst_pixel",
+        .name = "Worst pixel",
+        .summary =
+            "[x, y] of the pixel with the greatest sum of absolute differences of its 8-bit red, green and blue, the "
+            "first in row order if there are several; origin top left; null if the pictures are identical.",
+        .source = "Greatest L1 distance per pixel",
+        .formula = "[x, y] of the greatest Σ|r − t| of a pixel, the first in row order",
+        .good_for = "where to look, or to ask for the fragments",
+        .place = 65,
+        .fields = {{.kind = MetricField::Kind::pixel,
+                    .unit = "px",
+                    .range = "[0..width-1, 0..height-1]",
+                    .summary = "Position of the worst pixel; null if the pictures are identical",
+                    .null_is_identical = true,
+                    .column = {.head = "Worst pixel"}}},
+        .compute = compute_worst_pixel};
 }
 
 }  // namespace sheer

@@ -2,40 +2,33 @@
 
 #include <fmt/format.h>
 
-#include "renderer/number_text.h"
+#include "renderer/core/number_text.h"
 #include "renderer/spec/sweep.h"
 
 namespace sheer {
 
-using nlohmann::json;
+using report::Check;
 
-std::string check_outcome(const json& check) {
-    // Reports made before checks could stay undecided say only whether they passed.
-    return check.value("outcome", check["passed"].get<bool>() ? "passed" : "failed");
-}
-
-std::string check_limits(const json& check) {
+std::string check_limits(const Check& check) {
     std::string text;
-    if (!check["min"].is_null()) text += " at least " + full_number_text(check["min"]);
-    if (!check["max"].is_null()) text += " at most " + full_number_text(check["max"]);
+    if (check.min) text += " at least " + full_number_text(*check.min);
+    if (check.max) text += " at most " + full_number_text(*check.max);
     return text;
 }
 
-std::string check_name(const json& check) {
-    const std::string point = describe_point(check["at"]);
-    return fmt::format("{} of {}{}{}", check["metric"].get<std::string>(), check["method"].get<std::string>(),
-                       check_limits(check), point.empty() ? "" : " at " + point);
+std::string check_name(const Check& check) {
+    const std::string point = describe_point(check.at);
+    return fmt::format("{} of {}{}{}", check.metric, check.method, check_limits(check),
+                       point.empty() ? "" : " at " + point);
 }
 
-std::string check_value(const json& check) {
-    // PSNR has no value where the pictures are identical, and then passes any minimum.
-    if (!check["value"].is_number())
-        return check["passed"].get<bool>() ? "infinite, as the pictures are identical" : "not measured";
-    const double value = check["value"];
-    std::string text = number_text(value);
-    for (const char* limit : {"min", "max"}) {
-        if (!check[limit].is_number()) continue;
-        const std::string beside = number_text_beside(value, check[limit]);
+std::string check_value(const Check& check) {
+    // PSNR has no value if the pictures are identical, and then passes any minimum.
+    if (!check.value) return check.passed ? "infinite, as the pictures are identical" : "not measured";
+    std::string text = number_text(*check.value);
+    for (const std::optional<double>& limit : {check.min, check.max}) {
+        if (!limit) continue;
+        const std::string beside = number_text_beside(*check.value, *limit);
         if (beside.size() > text.size()) text = beside;
     }
     return text;

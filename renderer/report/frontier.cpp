@@ -9,13 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/number_text.h"
-#include "renderer/report/measured.h"
+#include "renderer/core/number_text.h"
 #include "renderer/report/statistics.h"
+#include "renderer/results/quantity.h"
 
 namespace sheer {
-
-using nlohmann::json;
 
 namespace {
 
@@ -26,73 +24,64 @@ constexpr double least_speeds[] = {1, 2, 4};
 struct Candidate {
     std::string label;
     double time_ms, error;
-    json speedup;
+    std::optional<report::Speedup> speedup;
     std::vector<double> samples;
 
     std::string shown_error() const { return number_text(error, 2); }
     bool is_nearer_than(const Candidate& other) const {
         return error < other.error && shown_error() != other.shown_error();
     }
-    Verdict verdict() const {
-        const std::string name = speedup.is_object() ? speedup.value("verdict", "") : "";
-        for (const Verdict one : {Verdict::faster, Verdict::slower})
-            if (name == verdict_name(one)) return one;
-        return Verdict::not_resolved;
-    }
-    /// Whether its whole interval lies beyond a speed.
+    Verdict verdict() const { return speedup ? speedup->verdict : Verdict::not_resolved; }
+    /// Whether its whole interval is above a speed.
     bool is_beyond(double speed) const {
-        return verdict() == Verdict::faster && speedup["ci95"].is_array() && speedup["ci95"][0] >= speed;
+        return verdict() == Verdict::faster && speedup->ci95 && (*speedup->ci95)[0] >= speed;
     }
     std::string shown() const {
         std::string text = fmt::format("{} with an error of {} in {} ms", label, shown_error(), number_text(time_ms));
-        if (!speedup.is_object()) return text;
-        text += fmt::format(", {:.2f} times the baseline's speed", speedup["value"].get<double>());
-        const json& interval = speedup["ci95"];
-        if (interval.is_array())
-            text += fmt::format(" [{:.2f}, {:.2f}]", interval[0].get<double>(), interval[1].get<double>());
+        if (!speedup) return text;
+        text += fmt::format(", {:.2f} times the baseline's speed", speedup->value);
+        if (speedup->ci95) text += fmt::format(" [{:.2f}, {:.2f}]", (*speedup->ci95)[0], (*speedup->ci95)[1]);
         return text;
     }
 };
 using Candidates = std::vector<Candidate>;
 
-Candidates candidates(const json& run) {
+Candidates candidates(const report::Run& run) {
+    const Quantity* quantity = find_quantity(error_metric);
     Candidates all;
-    for (const json& result : run.at("results")) {
-        const json time = measured(result, "timing.median"), error = measured(result, error_metric);
-        if (!time.is_number() || !error.is_number()) continue;
-        all.push_back({result["label"], time, error, result["speedup"],
-                       result["timing"].value("samples", std::vector<double>())});
+    for (const report::Result& result : run.results) {
+        const std::optional<double> error = quantity ? quantity->value(result) : std::nullopt;
+        if (!result.timing || !error) continue;
+        all.push_back({result.label, result.timing->median, *error, result.speedup.value, result.timing->samples});
     }
     std::ranges::stable_sort(all, {}, &Candidate::time_ms);
     return all;
 }
 
-/// How far the baseline is from itself; none where that was not measured.
-std::optional<NoiseFloor> noise_of(const json& run) {
-    const json floor = run.value("noise_floor", json());
-    if (!floor.is_object()) return std::nullopt;
-    // JSON has no infinity: null stands for it.
-    const json& factor = floor.at("factor");
-    return NoiseFloor{1, {}, factor.is_number() ? factor.get<double>() : std::numeric_limits<double>::infinity()};
+/// How much the baseline differs from itself; none if that was not measured.
+std::optional<NoiseFloor> noise_of(const report::Run& run) {
+    if (!run.noise_floor) return std::nullopt;
+    return NoiseFloor{1, {}, run.noise_floor->factor.value_or(std::numeric_limits<double>::infinity())};
 }
 
 /// Which of two methods is faster.
 class Race {
   public:
-    Race(const json& run, const std::string& baseline) : m_baseline(baseline), m_noise(noise_of(run)) {}
+    Race(const report::Run& run, const std::string& baseline) : m_baseline(baseline), m_noise(noise_of(run)) {}
 
     bool is_faster(const Candidate& one, const Candidate& other) const {
         if (other.label == m_baseline) return one.verdict() == Verdict::faster;
         if (one.label == m_baseline) return other.verdict() == Verdict::slower;
         const std::vector<double> ratios = paired_ratios(other.samples, one.samples);
-        if (ratios.empty() || !one.speedup.is_object()) return false;
-        return judge_speedup(ratios, one.speedup.value("compared", std::size_t{1}), m_noise).verdict == Verdict::faster;
+        if (ratios.empty() || !one.speedup) return false;
+        return judge_speedup(ratios, one.speedup->compared, m_noise).verdict == Verdict::faster;
     }
 
-    /// "" where it is not dominated by the other.
+    /// "" if the other one does not dominate it.
     std::string why_dominated(const Candidate& one, const Candidate& by) const {
         if (is_faster(one, by) || one.is_nearer_than(by)) return "";
-        if (is_faster(by, one)) return fmt::format("{} is resolved faster and no farther from the reference", by.label);
+        if (is_faster(by, one))
+            return fmt::format("{} is resolved faster and not farther from the reference", by.label);
         if (by.is_nearer_than(one))
             return fmt::format("{} is nearer to the reference, and {} is not resolved faster", by.label, one.label);
         return "";
@@ -105,16 +94,16 @@ class Race {
     std::optional<NoiseFloor> m_noise;
 };
 
-/// A method and those that it ties with.
+/// A method and those with which it ties.
 struct Winner {
     const Candidate* method = nullptr;
     std::vector<std::string> tied;
     bool is_resolved = false;  ///< it may be called fastest
 
-    json to_json() const { return {{"method", method && is_resolved ? json(method->label) : json()}, {"tied", tied}}; }
+    report::Winner told() const { return {method && is_resolved ? std::optional(method->label) : std::nullopt, tied}; }
 };
 
-/// Of `some`, from the least time on; one that is resolved faster than the baseline comes first.
+/// The methods `some` by increasing time; those that are resolved faster than the baseline come first.
 Winner fastest_of(const std::vector<const Candidate*>& some, const Race& race) {
     Winner winner;
     const auto faster = std::ranges::find(some, Verdict::faster, [](const Candidate* one) { return one->verdict(); });
@@ -125,7 +114,7 @@ Winner fastest_of(const std::vector<const Candidate*>& some, const Race& race) {
     return winner;
 }
 
-/// Ties are those of the digits shown.
+/// Errors tie if their shown digits are equal.
 Winner closest_of(const std::vector<const Candidate*>& some) {
     Winner winner;
     for (const Candidate* one : some)
@@ -137,7 +126,7 @@ Winner closest_of(const std::vector<const Candidate*>& some) {
     return winner;
 }
 
-/// Sentences of neighbouring limits with the same answer are one: the strictest limit is what counts.
+/// Sentences of neighboring limits with the same answer are merged into that of the strictest limit.
 class Sentences {
   public:
     void add(const std::string& condition, const std::string& answer) {
@@ -146,32 +135,33 @@ class Sentences {
         m_all.push_back(condition + answer);
     }
     void begin_list() { m_last.clear(); }
-    const json& all() const { return m_all; }
+    const std::vector<std::string>& all() const { return m_all; }
 
   private:
     std::string m_last;
-    json m_all = json::array();
+    std::vector<std::string> m_all;
 };
 
 class FrontierWriter {
   public:
-    FrontierWriter(const json& run, const std::string& baseline)
+    FrontierWriter(const report::Run& run, const std::string& baseline)
         : m_run(run), m_all(candidates(run)), m_race(run, baseline) {}
 
-    json write() {
-        if (m_all.size() < 2) return nullptr;
-        const json rounds = m_run.value("rounds", json::object());
-        const bool too_few = rounds.contains("needed") && rounds["done"] < rounds["needed"];
+    std::optional<report::Frontier> write() {
+        if (m_all.size() < 2) return std::nullopt;
+        const report::Rounds& rounds = m_run.rounds;
+        const bool too_few = rounds.done < rounds.needed;
         if (too_few)
-            m_sentences.add("", fmt::format("No time is resolved, too few rounds: {}, needs {}.",
-                                            rounds["done"].get<int>(), rounds["needed"].get<int>()));
+            m_sentences.add(
+                "", fmt::format("No time is resolved, too few rounds: {}, needs {}.", rounds.done, rounds.needed));
         write_domination();
         for (const double limit : error_limits) write_fastest(limit, !too_few);
         m_sentences.begin_list();
         for (const double speed : least_speeds) write_closest(speed, !too_few);
-        return {{"error", error_metric},         {"fastest", fastest()},       {"methods", m_methods},
-                {"dominated", m_dominated},      {"fastest_under", m_fastest}, {"closest_within", m_closest},
-                {"sentences", m_sentences.all()}};
+        m_frontier.error = error_metric;
+        m_frontier.fastest = fastest();
+        m_frontier.sentences = m_sentences.all();
+        return std::move(m_frontier);
     }
 
   private:
@@ -182,9 +172,9 @@ class FrontierWriter {
         return some;
     }
 
-    json fastest() const {
+    std::vector<std::string> fastest() const {
         const Winner winner = fastest_of(those([](const Candidate&) { return true; }), m_race);
-        json labels = json::array();
+        std::vector<std::string> labels;
         if (winner.method->verdict() != Verdict::faster) return labels;
         for (const Candidate& one : m_all) {
             const bool tied = std::ranges::find(winner.tied, one.label) != winner.tied.end();
@@ -201,9 +191,9 @@ class FrontierWriter {
                 return !why.empty();
             });
             if (by == m_all.end()) {
-                m_methods.push_back(one.label);
+                m_frontier.methods.push_back(one.label);
             } else {
-                m_dominated.push_back({{"method", one.label}, {"by", by->label}, {"reason", why}});
+                m_frontier.dominated.push_back({one.label, by->label, why});
             }
         }
     }
@@ -212,9 +202,7 @@ class FrontierWriter {
         const auto some = those([&](const Candidate& one) { return one.error <= limit; });
         if (some.empty()) return;
         const Winner winner = fastest_of(some, m_race);
-        json entry = winner.to_json();
-        entry["error"] = limit;
-        m_fastest.push_back(entry);
+        m_frontier.fastest_under.push_back({winner.told(), limit});
         if (!in_words) return;
         const std::string under = fmt::format("a mean FLIP error of {}", limit);
         const bool has_baseline = std::ranges::find(some, m_race.baseline(), &Candidate::label) != some.end();
@@ -236,9 +224,7 @@ class FrontierWriter {
         });
         if (some.empty()) return;
         const Winner winner = closest_of(some);
-        json entry = winner.to_json();
-        entry["speed"] = speed;
-        m_closest.push_back(entry);
+        m_frontier.closest_within.push_back({winner.told(), speed});
         if (!in_words) return;
         const std::string with =
             winner.tied.empty() ? "." : fmt::format("; as close: {}.", fmt::join(winner.tied, ", "));
@@ -253,16 +239,16 @@ class FrontierWriter {
         return winner.tied.empty() ? "." : fmt::format("; not resolved from it: {}.", fmt::join(winner.tied, ", "));
     }
 
-    const json& m_run;
+    const report::Run& m_run;
     Candidates m_all;
     Race m_race;
     Sentences m_sentences;
-    json m_methods = json::array(), m_dominated = json::array(), m_fastest = json::array(), m_closest = json::array();
+    report::Frontier m_frontier;
 };
 
 }  // namespace
 
-json frontier(const json& run, const std::string& baseline) {
+std::optional<report::Frontier> frontier(const report::Run& run, const std::string& baseline) {
     return FrontierWriter(run, baseline).write();
 }
 

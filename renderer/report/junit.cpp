@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
-#include "renderer/number_text.h"
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "renderer/core/number_text.h"
 #include "renderer/report/check_text.h"
 #include "renderer/report/report.h"
 #include "renderer/report/xml_text.h"
@@ -8,108 +11,134 @@
 
 namespace sheer {
 
-using nlohmann::json;
+using report::Report;
 
 namespace {
 
-/// The test cases of a suite, and how many came out how.
-class Cases {
+void set_attribute(pugi::xml_node node, const char* attribute, const std::string& text) {
+    node.append_attribute(attribute) = xml_text(text).c_str();
+}
+
+/// A document with one <testsuite>, whose attributes count the outcomes of its cases.
+class JunitSuite {
   public:
-    void pass(const std::string& name) { add(name, ""); }
-    void skip(const std::string& name, const std::string& why) {
-        ++m_skipped;
-        add(name, fmt::format("<skipped message=\"{}\"/>", xml_text(why)));
-    }
-    void fail(const std::string& name, const std::string& why) {
-        ++m_failures;
-        add(name, fmt::format("<failure message=\"{}\"/>", xml_text(why)));
-    }
-    void err(const std::string& name, const std::string& title, const std::string& detail) {
-        ++m_errors;
-        add(name, fmt::format("<error message=\"{}\">{}</error>", xml_text(title), xml_text(detail)));
+    JunitSuite(const std::string& name, const std::string& timestamp, const std::vector<Note>& notes) {
+        pugi::xml_node declaration = m_document.append_child(pugi::node_declaration);
+        declaration.append_attribute("version") = "1.0";
+        declaration.append_attribute("encoding") = "UTF-8";
+        m_suite = m_document.append_child("testsuite");
+        set_attribute(m_suite, "name", name);
+        for (const char* count : {"tests", "failures", "errors", "skipped"}) m_suite.append_attribute(count) = 0;
+        set_attribute(m_suite, "timestamp", timestamp);
+        if (!notes.empty()) add_properties(notes);
     }
 
-    std::string suite(const std::string& name, const std::string& timestamp, const std::string& properties) const {
-        return fmt::format(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
-            "errors=\"{}\" skipped=\"{}\" timestamp=\"{}\">\n{}{}</testsuite>\n",
-            xml_text(name), m_count, m_failures, m_errors, m_skipped, xml_text(timestamp), properties, m_text);
+    void pass(const std::string& name) { add(name); }
+    void skip(const std::string& name, const std::string& why) { add_outcome(name, "skipped", "skipped", why); }
+    void fail(const std::string& name, const std::string& why) { add_outcome(name, "failures", "failure", why); }
+    void err(const std::string& name, const std::string& title, const std::string& detail) {
+        pugi::xml_node element = add_outcome(name, "errors", "error", title);
+        if (!detail.empty()) element.text() = xml_text(detail).c_str();
+    }
+
+    std::string text() const {
+        std::ostringstream text;
+        m_document.save(text, "  ");
+        return text.str();
     }
 
   private:
-    /// `outcome` is an element inside the case, or "".
-    void add(const std::string& name, const std::string& outcome) {
-        ++m_count;
-        m_text += fmt::format("  <testcase classname=\"sheer\" name=\"{}\">{}</testcase>\n", xml_text(name), outcome);
+    void add_properties(const std::vector<Note>& notes) {
+        pugi::xml_node properties = m_suite.append_child("properties");
+        for (const Note& note : notes) {
+            const std::string where = note.where.empty() ? "" : note.where + ": ";
+            pugi::xml_node property = properties.append_child("property");
+            set_attribute(property, "name", "note." + note.code);
+            set_attribute(property, "value", where + note.text);
+        }
     }
 
-    std::string m_text;
-    int m_count = 0, m_failures = 0, m_errors = 0, m_skipped = 0;
+    pugi::xml_node add(const std::string& name) {
+        count("tests");
+        pugi::xml_node test_case = m_suite.append_child("testcase");
+        test_case.append_attribute("classname") = "sheer";
+        set_attribute(test_case, "name", name);
+        return test_case;
+    }
+
+    /// Returns the element with the case's outcome.
+    pugi::xml_node add_outcome(const std::string& name, const char* counted_as, const char* outcome,
+                               const std::string& message) {
+        pugi::xml_node element = add(name).append_child(outcome);
+        count(counted_as);
+        set_attribute(element, "message", message);
+        return element;
+    }
+
+    void count(const char* attribute) {
+        pugi::xml_attribute number = m_suite.attribute(attribute);
+        number = number.as_int() + 1;
+    }
+
+    pugi::xml_document m_document;
+    pugi::xml_node m_suite;
 };
 
-std::string note_properties(const json& notes) {
-    if (notes.empty()) return "";
-    std::string properties;
-    for (const json& note : notes) {
-        const std::string where = note["where"].is_null() ? "" : note["where"].get<std::string>() + ": ";
-        properties +=
-            fmt::format("    <property name=\"note.{}\" value=\"{}\"/>\n", xml_text(note["code"].get<std::string>()),
-                        xml_text(where + note["text"].get<std::string>()));
-    }
-    return "  <properties>\n" + properties + "  </properties>\n";
-}
-
-void add_checks(const json& checks, Cases& cases) {
-    for (const json& check : checks) {
+void add_checks(const std::vector<report::Check>& checks, JunitSuite& suite) {
+    for (const report::Check& check : checks) {
         const std::string name = check_name(check);
-        const std::string outcome = check_outcome(check);
-        const json reason = check.value("reason", json());
         const std::string text = fmt::format("is {}, wanted{}{}", check_value(check), check_limits(check),
-                                             reason.is_string() ? ": " + reason.get<std::string>() : "");
-        if (outcome == "passed") {
-            cases.pass(name);
-        } else if (outcome == "undecided") {
-            cases.skip(name, "undecided: " + text);
-        } else {
-            cases.fail(name, text);
+                                             check.reason.empty() ? "" : ": " + check.reason);
+        switch (check.came_out()) {
+            case report::CheckOutcome::passed:
+                suite.pass(name);
+                break;
+            case report::CheckOutcome::undecided:
+                suite.skip(name, "undecided: " + text);
+                break;
+            case report::CheckOutcome::failed:
+                suite.fail(name, text);
         }
     }
 }
 
-void add_results(const json& runs, Cases& cases) {
-    for (const json& run : runs) {
-        const std::string point = describe_point(run["point"]), place = point.empty() ? "" : " at " + point;
-        for (const json& result : run["results"]) {
-            const std::string name = "renders " + result["label"].get<std::string>() + place;
-            const json nothing_drawn = run.value("nothing_drawn", json());
-            if (result["status"] == "ok" && nothing_drawn.is_string()) {
-                cases.skip(name, nothing_drawn);
-            } else if (result["status"] == "ok") {
-                cases.pass(name);
-            } else if (result["status"] == "unsupported") {
-                cases.skip(name, result["reason"]);
+void add_result(const report::Result& result, const std::string& name, const std::string& nothing_drawn,
+                JunitSuite& suite) {
+    switch (result.status) {
+        case report::ResultStatus::ok:
+            if (nothing_drawn.empty()) {
+                suite.pass(name);
             } else {
-                cases.fail(name, result["reason"]);
+                suite.skip(name, nothing_drawn);
             }
-        }
+            break;
+        case report::ResultStatus::unsupported:
+            suite.skip(name, result.reason);
+            break;
+        case report::ResultStatus::failed:
+            suite.fail(name, result.reason);
+    }
+}
+
+void add_results(const std::vector<report::Run>& runs, JunitSuite& suite) {
+    for (const report::Run& run : runs) {
+        const std::string point = describe_point(run.point), place = point.empty() ? "" : " at " + point;
+        for (const report::Result& result : run.results)
+            add_result(result, "renders " + result.label + place, run.nothing_drawn, suite);
     }
 }
 
 }  // namespace
 
-std::string report_junit(const json& report) {
-    Cases cases;
-    add_checks(report.value("checks", json::array()), cases);
-    add_results(report.value("runs", json::array()), cases);
-    if (const json status = report.value("status", json("done")); status != "done") {
-        const json error = report.value("error", json());
-        const std::string title =
-            error.is_object() ? error.value("title", "") : "The comparison is " + status.get<std::string>();
-        cases.err("the comparison ends", title, error.is_object() ? error.value("detail", "") : "");
-    }
-    const json spec = report.value("spec", json::object());
-    return cases.suite(spec.value("title", ""), report.value("created_at", ""),
-                       note_properties(report.value("notes", json::array())));
+std::string report_junit(const Report& report) {
+    JunitSuite suite(report.title(), report.created_at, report.notes);
+    add_checks(report.checks, suite);
+    add_results(report.runs, suite);
+    if (report.status != report::Status::done)
+        suite.err("the comparison ends",
+                  report.error ? report.error->title : "The comparison is " + word_of(report.status),
+                  report.error ? report.error->detail : "");
+    return suite.text();
 }
 
 }  // namespace sheer

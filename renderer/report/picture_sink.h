@@ -1,20 +1,20 @@
 #pragma once
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "renderer/frame/image.h"
-#include "renderer/frame/pixel_counts.h"
+#include "renderer/image/image.h"
+#include "renderer/image/pixel_counts.h"
+#include "renderer/results/report.h"
 
 namespace sheer {
 
-/// Takes the pictures of a report while it is made. Each call gives what the report then says of the picture:
-/// {sha256, url, media_type}. `name` is a file's name and unique in the report.
+/// Takes the pictures of a report while it is made. Each call returns the report's entry for the picture. `name` is a
+/// file name and unique in the report.
 class PictureSink {
   public:
     virtual ~PictureSink() = default;
-    virtual nlohmann::json take(const Image8& picture, const std::string& name) = 0;
-    virtual nlohmann::json take(const Image& picture, const std::string& name) = 0;
-    virtual nlohmann::json take(const PixelCounts& counts, const std::string& name) = 0;
+    virtual report::Picture take(const Image8& picture, const std::string& name) = 0;
+    virtual report::Picture take(const Image& picture, const std::string& name) = 0;
+    virtual report::Picture take(const PixelCounts& counts, const std::string& name) = 0;
 };
 
 }  // namespace sheer

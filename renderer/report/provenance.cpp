@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <fstream>
 #include <set>
 #include <system_error>
 
 namespace sheer {
-
-using nlohmann::json;
 
 std::string cpu_name() {
     std::ifstream file("/proc/cpuinfo");
@@ -31,7 +28,7 @@ std::string driver_of(const std::string& gl_version) {
     return gl_version.substr(begin + 1);
 }
 
-json governor(const std::filesystem::path& cpus) {
+OrReason<std::string> governor(const std::filesystem::path& cpus) {
     std::set<std::string> found;
     std::error_code error;
     for (std::filesystem::directory_iterator entry(cpus, error), end; !error && entry != end; entry.increment(error)) {
@@ -40,25 +37,23 @@ json governor(const std::filesystem::path& cpus) {
         if (file >> name) found.insert(name);
     }
     if (found.empty())
-        return {{"governor", nullptr},
-                {"governor_reason",
-                 fmt::format("{} names none, as in most virtual machines", (cpus / "cpu*/cpufreq").string())}};
-    return {{"governor", fmt::format("{}", fmt::join(found, ", "))}};
+        return {{}, fmt::format("{} names no governor, as in most virtual machines", (cpus / "cpu*/cpufreq").string())};
+    return {fmt::format("{}", fmt::join(found, ", ")), ""};
 }
 
-json load_average(const std::filesystem::path& file) {
+std::optional<report::LoadAverage> load_average(const std::filesystem::path& file) {
     std::ifstream stream(file);
-    std::array<double, 3> load;
-    if (!(stream >> load[0] >> load[1] >> load[2])) return nullptr;
+    report::LoadAverage load;
+    if (!(stream >> load[0] >> load[1] >> load[2])) return std::nullopt;
     return load;
 }
 
-json color_space() {
-    return {{"values", "display-referred, encoded as sRGB"},
-            {"blending", "in these values as they are: none is converted to linear light, as in the SCCG 2010 paper"},
-            {"quantised_metrics", "on the values clamped to 0..1 and rounded to 1/255; FLIP decodes them as sRGB"},
-            {"float_metrics",
-             "linear and over_backgrounds: on the blended values, neither clamped nor rounded nor decoded"}};
+report::ColorSpace color_space() {
+    return {
+        .values = "display-referred, encoded as sRGB",
+        .blending = "in these values as they are, without conversion to linear light, as in the SCCG 2010 paper",
+        .quantised_metrics = "on the values clamped to 0..1 and rounded to 1/255; FLIP decodes them as sRGB",
+        .float_metrics = "linear and over_backgrounds: on the blended values, neither clamped nor rounded nor decoded"};
 }
 
 }  // namespace sheer

@@ -21,15 +21,19 @@ double median_deviation(const std::vector<double>& samples, double middle) {
 
 }  // namespace
 
+std::optional<report::Interval> interval_of(const std::optional<std::pair<double, double>>& pair) {
+    return pair ? std::optional(report::Interval{pair->first, pair->second}) : std::nullopt;
+}
+
 double median(std::vector<double> samples) {
-    if (samples.empty()) throw std::invalid_argument("the median of no samples");
+    if (samples.empty()) throw std::invalid_argument("there are no samples for the median");
     std::ranges::sort(samples);
     const std::size_t middle = samples.size() / 2;
     return samples.size() % 2 == 1 ? samples[middle] : (samples[middle - 1] + samples[middle]) / 2;
 }
 
 double percentile(std::vector<double> samples, double percent) {
-    if (samples.empty()) throw std::invalid_argument("a percentile of no samples");
+    if (samples.empty()) throw std::invalid_argument("there are no samples for a percentile");
     std::ranges::sort(samples);
     const double rank = std::ceil(percent / 100 * static_cast<double>(samples.size()));
     return samples[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
@@ -74,25 +78,13 @@ NoiseFloor noise_floor(const std::vector<double>& ratios) {
     return noise;
 }
 
-const char* verdict_name(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::faster:
-            return "faster";
-        case Verdict::slower:
-            return "slower";
-        case Verdict::not_resolved:
-            break;
-    }
-    return "not resolved";
-}
-
 Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>& interval, double noise_factor,
                     const std::string& no_interval_reason) {
     Speedup speedup{value, interval, Verdict::not_resolved, ""};
     if (!interval) {
         speedup.reason = no_interval_reason;
     } else if (interval->first <= 1 && interval->second >= 1) {
-        speedup.reason = "the interval holds 1";
+        speedup.reason = "the interval contains 1";
     } else if (value <= noise_factor && value >= 1 / noise_factor) {
         speedup.reason = "inside the noise floor";
     } else {
@@ -102,7 +94,8 @@ Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>
 }
 
 std::size_t rounds_needed(std::size_t compared) {
-    // The widest pair of ranks, the least and the greatest sample, misses the median where all lie on one side of it.
+    // The widest pair of ranks, the least and the greatest sample, misses the median if all samples lie on one side of
+    // it.
     std::size_t rounds = 1;
     double missed = 1;
     while (missed > error_rate / static_cast<double>(compared)) {

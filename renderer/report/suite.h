@@ -1,15 +1,15 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <vector>
 
+#include "renderer/results/report.h"
 #include "renderer/spec/suites.h"
 
 namespace sheer {
 
-/// What a report says about the suite it was made for: {id, title, source, device, figures: [{at, method, metric,
-/// published, measured, ci95}], trends: [{text, verdict, detail}]}, from the `runs` of the report.
+/// A report's section on the suite for which it was made, from the `runs` of the report.
 ///
-/// A trend "holds" where the measurement resolves it, "fails" where it resolves the contrary, and is "not resolved"
-/// otherwise; two values differ where their 95 % intervals do not meet.
-nlohmann::json suite_report(const Suite& suite, const nlohmann::json& runs);
+/// A trend "holds" if the measurement resolves it, "fails" if it resolves the opposite, and is "not resolved"
+/// otherwise; two values differ if their 95 % intervals do not overlap.
+report::Suite suite_report(const Suite& suite, const std::vector<report::Run>& runs);
 
 }  // namespace sheer

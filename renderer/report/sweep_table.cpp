@@ -4,63 +4,65 @@
 
 #include <vector>
 
-#include "renderer/report/measured.h"
 #include "renderer/report/text_table.h"
 #include "renderer/spec/sweep.h"
 
 namespace sheer {
 
-using nlohmann::json;
+using report::Report, report::Result, report::SpeedVerdict;
 
 namespace {
 
-std::vector<std::string> contenders(const json& report) {
+std::vector<std::string> contenders(const Report& report) {
     std::vector<std::string> labels;
-    for (const json& method : report["spec"]["methods"])
-        if (method["label"] != report["spec"]["baseline"]) labels.push_back(method["label"]);
+    for (const auto& method : report.spec.at("methods"))
+        if (method.at("label") != report.baseline()) labels.push_back(method["label"]);
     return labels;
 }
 
-std::string verdict_of_speedup(const json* result) {
-    return result && (*result)["speedup"].is_object() ? (*result)["speedup"]["verdict"].get<std::string>() : "";
+bool is_resolved(const report::Speedup& speedup) {
+    return speedup.verdict != SpeedVerdict::not_resolved;
 }
 
-std::string speedup_cell(const json* result) {
+std::string speedup_cell(const Result* result) {
     if (!result) return "-";
-    if ((*result)["status"] != "ok") return (*result)["status"];
-    if (!(*result)["speedup"].is_object()) return "-";
-    const std::string verdict = verdict_of_speedup(result);
-    const std::string ratio = fmt::format("{:.2f}x", (*result)["speedup"]["value"].get<double>());
-    return verdict == "faster" || verdict == "slower" ? ratio + " " + verdict : ratio;
+    if (result->status != report::ResultStatus::ok) return word_of(result->status);
+    if (!result->speedup) return "-";
+    const report::Speedup& speedup = *result->speedup;
+    const std::string ratio = fmt::format("{:.2f}x", speedup.value);
+    return is_resolved(speedup) ? ratio + " " + word_of(speedup.verdict) : ratio;
 }
 
 /// "faster at count 64; count 256" or "".
-std::string places(const json& report, const std::string& label, const std::string& verdict) {
+std::string places(const Report& report, const std::string& label, SpeedVerdict verdict) {
     std::string text;
-    for (const json& run : report["runs"])
-        if (verdict_of_speedup(find_result(run, label)) == verdict)
-            text += (text.empty() ? "" : "; ") + describe_point(run["point"]);
-    return text.empty() ? "" : fmt::format("{} at {}", verdict, text);
+    for (const report::Run& run : report.runs) {
+        const Result* result = run.find(label);
+        if (result && result->speedup && result->speedup->verdict == verdict)
+            text += (text.empty() ? "" : "; ") + describe_point(run.point);
+    }
+    return text.empty() ? "" : fmt::format("{} at {}", word_of(verdict), text);
 }
 
-std::string sentence(const json& report, const std::string& label) {
-    const std::string faster = places(report, label, "faster"), slower = places(report, label, "slower");
+std::string sentence(const Report& report, const std::string& label) {
+    const std::string faster = places(report, label, SpeedVerdict::faster),
+                      slower = places(report, label, SpeedVerdict::slower);
     const std::string both = faster.empty() || slower.empty() ? faster + slower : faster + ". It is " + slower;
-    return fmt::format("{} is {}.\n", label, both.empty() ? "nowhere resolved to be faster or slower" : both);
+    return fmt::format("{} is {}.\n", label, both.empty() ? "not resolved to be faster or slower at any point" : both);
 }
 
 }  // namespace
 
-std::string sweep_table(const json& report) {
+std::string sweep_table(const Report& report) {
     const std::vector<std::string> labels = contenders(report);
-    if (report["runs"].size() < 2 || labels.empty()) return "";
+    if (report.runs.size() < 2 || labels.empty()) return "";
     std::vector<TableRow> rows = {{"speedup at"}};
     rows[0].insert(rows[0].end(), labels.begin(), labels.end());
-    for (const json& run : report["runs"]) {
-        rows.push_back({describe_point(run["point"])});
-        for (const std::string& label : labels) rows.back().push_back(speedup_cell(find_result(run, label)));
+    for (const report::Run& run : report.runs) {
+        rows.push_back({describe_point(run.point)});
+        for (const std::string& label : labels) rows.back().push_back(speedup_cell(run.find(label)));
     }
-    std::string text = fmt::format("\n{}\nBeside {}:\n", aligned(rows), report["spec"]["baseline"].get<std::string>());
+    std::string text = fmt::format("\n{}\nBeside {}:\n", aligned(rows), report.baseline());
     for (const std::string& label : labels) text += sentence(report, label);
     return text;
 }

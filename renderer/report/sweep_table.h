@@ -1,11 +1,12 @@
 #pragma once
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "renderer/results/report.h"
 
 namespace sheer {
 
-/// The end of a sweep's table: a line a point with each method's speedup over the baseline, then for each method where
-/// it is resolved to be faster or slower. "" for a report of one point.
-std::string sweep_table(const nlohmann::json& report);
+/// The end of a sweep's table: for each point, a line with each method's speedup over the baseline; then, for each
+/// method, the points at which it is resolved to be faster or slower. "" for a report with one point.
+std::string sweep_table(const report::Report& report);
 
 }  // namespace sheer

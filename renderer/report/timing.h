@@ -1,36 +1,39 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "renderer/compare.h"
+#include "renderer/compare/compare.h"
+#include "renderer/results/report.h"
 
 namespace sheer {
 
-/// The times of a run as its report says them: docs/measuring.md.
+/// The times of a run for its report: docs/measuring.md.
 class Timings {
   public:
-    /// `baseline` is a label of the spec. References outlive it.
+    /// `baseline` is a label of the spec. References must outlive it.
     Timings(const Run& run, const std::string& baseline, bool software);
 
     /// A result's `timing`, with its `sort`. It must have samples.
-    nlohmann::json timing(const MethodResult& result) const;
-    /// The run's `noise_floor`: the baseline against its second instance. Null where the baseline did not run.
-    nlohmann::json noise() const;
-    /// A result's `speedup`: the baseline's time over the method's, round by round. Null where either did not run.
-    nlohmann::json speedup(const MethodResult& result) const;
-    /// The same where each frame of a method that sorts is preceded by its sort: `speedup_with_sort`.
-    nlohmann::json speedup_with_sort(const MethodResult& result) const;
-    /// Why a result has no speedup of either kind.
-    std::string no_speedup_reason(const MethodResult& result) const;
-    /// How many rounds the speedups need for an interval.
+    report::Timing timing(const MethodResult& result) const;
+    /// The run's `noise_floor`: the baseline compared with its second instance. None if the baseline did not run.
+    std::optional<report::NoiseFloor> noise() const;
+    /// A result's `speedup`: the baseline's time over the method's, round by round. None if either did not run.
+    OrReason<report::Speedup> speedup(const MethodResult& result) const;
+    /// The same, if each frame of a method that sorts includes the sort: `speedup_with_sort`.
+    OrReason<report::Speedup> speedup_with_sort(const MethodResult& result) const;
+    /// The number of rounds that the speedups need for an interval.
     std::size_t needed_rounds() const;
     /// Median time in ms.
     double median_ms(const MethodResult& result) const;
 
   private:
-    /// In ms, by the clock that counts.
+    /// In ms, by the clock that is used.
     std::vector<double> times(const std::vector<gl::FrameSample>& samples) const;
-    nlohmann::json sort(const MethodResult& result) const;
-    nlohmann::json judged(const MethodResult& result, bool with_sort) const;
+    OrReason<report::TimeSummary> sort(const MethodResult& result) const;
+    std::optional<report::Speedup> judged(const MethodResult& result, bool with_sort) const;
+    OrReason<report::Speedup> or_reason(std::optional<report::Speedup> speedup, const MethodResult& result) const;
+    std::string no_speedup_reason(const MethodResult& result) const;
     const MethodResult* baseline() const;
     std::string no_baseline_reason() const;
 

@@ -13,8 +13,8 @@ namespace {
 constexpr double two_sample_error_rate = 0.05;
 constexpr std::size_t max_exact_pairs = 1000;
 
-/// P(U = u) of sets of m and n values. The greatest value of all is of the first set with the probability m / (m + n),
-/// and then exceeds all n of the other, which leaves sets of m - 1 and n.
+/// P(U = u) for sets of m and n values. The greatest value of all belongs to the first set with probability m / (m +
+/// n), and then exceeds all n of the other, which leaves sets of m - 1 and n.
 std::vector<double> mann_whitney_probabilities(std::size_t m, std::size_t n) {
     std::vector<std::vector<double>> row(n + 1, std::vector<double>(m * n + 1, 0.0));
     for (std::size_t j = 0; j <= n; ++j) row[j][0] = 1;
@@ -44,7 +44,7 @@ std::optional<std::size_t> approximate_rank(std::size_t m, std::size_t n, double
     const double pairs = static_cast<double>(m) * static_cast<double>(n);
     const double deviation = std::sqrt(pairs * static_cast<double>(m + n + 1) / 12);
     std::optional<std::size_t> rank;
-    // The first k that is too probable, by halving: the probability grows with k.
+    // Bisects for the first k that is too probable: the probability grows with k.
     std::size_t low = 0, high = m * n / 2 + 1;
     while (low < high) {
         const std::size_t k = (low + high) / 2;
@@ -73,7 +73,7 @@ double ranked(std::vector<double>& values, std::size_t rank) {
     return *place;
 }
 
-/// The fewest samples of two equally large sets that have an interval.
+/// The smallest size of two equally large sets that gives an interval.
 std::size_t two_sample_rounds_needed(double rate) {
     std::size_t rounds = 1;
     while (!mann_whitney_rank(rounds, rounds, rate / 2)) ++rounds;

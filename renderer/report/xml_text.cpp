@@ -1,7 +1,5 @@
 #include "renderer/report/xml_text.h"
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <optional>
 
@@ -9,13 +7,13 @@ namespace sheer {
 
 namespace {
 
-constexpr const char* replacement_character = "\xEF\xBF\xBD";
+constexpr std::string_view replacement_character = "\xEF\xBF\xBD";
 
-/// What a byte at the begin of a character says (RFC 3629).
+/// What the first byte of a character means (RFC 3629).
 struct Lead {
     std::size_t length;       ///< of the character, in bytes
-    std::uint32_t bits;       ///< of its number that are in this byte
-    std::uint32_t least = 0;  ///< a smaller number has a shorter form
+    std::uint32_t bits;       ///< of its code point that are in this byte
+    std::uint32_t least = 0;  ///< a smaller code point has a shorter form
 };
 
 std::optional<Lead> lead_of(unsigned char byte) {
@@ -34,10 +32,10 @@ bool is_xml_character(std::uint32_t c) {
 
 struct Character {
     std::size_t length = 1;  ///< in bytes
-    bool is_good = false;    ///< it is UTF-8, and may stand in XML
+    bool is_good = false;    ///< it is valid UTF-8, and XML allows it
 };
 
-/// What `text` begins with.
+/// The first character of `text`.
 Character first_character(std::string_view text) {
     const auto lead = lead_of(static_cast<unsigned char>(text[0]));
     if (!lead || text.size() < lead->length) return {};
@@ -51,42 +49,13 @@ Character first_character(std::string_view text) {
     return {lead->length, is_xml_character(number)};
 }
 
-const char* entity_of(char c) {
-    switch (c) {
-        case '&':
-            return "&amp;";
-        case '<':
-            return "&lt;";
-        case '>':
-            return "&gt;";
-        case '"':
-            return "&quot;";
-        case '\'':
-            return "&apos;";
-        case '\t':
-            return "&#9;";
-        case '\n':
-            return "&#10;";
-        case '\r':
-            return "&#13;";
-        default:
-            return nullptr;
-    }
-}
-
 }  // namespace
 
 std::string xml_text(std::string_view text) {
     std::string safe;
     while (!text.empty()) {
         const Character character = first_character(text);
-        if (!character.is_good) {
-            safe += replacement_character;
-        } else if (const char* entity = entity_of(text[0])) {
-            safe += entity;
-        } else {
-            safe += text.substr(0, character.length);
-        }
+        safe += character.is_good ? text.substr(0, character.length) : replacement_character;
         text.remove_prefix(character.length);
     }
     return safe;

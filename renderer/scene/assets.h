@@ -19,13 +19,13 @@ struct RawVolume {
     bool big_endian = false;
 };
 
-/// What a spec says of a volume's file.
+/// What a spec says about a volume's file.
 struct VolumeOptions {
-    std::optional<RawVolume> raw;     ///< none: the file says it itself
+    std::optional<RawVolume> raw;     ///< none: the file has a header
     std::optional<glm::dvec2> range;  ///< the values that become 0 and 1, x < y; none: the least and the greatest
 };
 
-/// A file that was read, by what it held.
+/// A file that was read, identified by its contents.
 struct AssetFile {
     std::string name;    ///< as an AssetReader takes it; of a file beside a model, below the same folder as the model's
     std::string of;      ///< the name of the file that needs it; "" for one that the spec itself names
@@ -35,12 +35,12 @@ struct AssetFile {
     bool operator==(const AssetFile&) const = default;
 };
 
-/// A file is not what the spec says it is, or is not there; the text is meant for the caller and names no path of ours.
+/// A file is not what the spec says it is, or does not exist; the text is for the caller and names no path of the host.
 class AssetError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Reads the files that a spec refers to. The core knows no file formats, so that a benchmark can do without them.
+/// Reads the files that a spec refers to. The core knows no file formats, so a benchmark can do without them.
 ///
 /// `name` is the text in the spec: the SHA-256 of an uploaded asset, or a path for `sheer compare`. All throw
 /// AssetError.
@@ -53,11 +53,11 @@ class AssetReader {
     virtual Volume volume(const std::string& name, const VolumeOptions& options) = 0;
     /// A glTF 2.0 file.
     virtual Model model(const std::string& name) = 0;
-    /// Every file that was read so far, those beside a model among them, as it was when it was read last.
+    /// Every file that was read so far, including those that models refer to, as it was when it was last read.
     virtual std::vector<AssetFile> files() const { return {}; }
 };
 
-/// For where there are no files: everything is an AssetError.
+/// For programs without files: everything is an AssetError.
 class NoAssets : public AssetReader {
   public:
     Picture picture(const std::string& name, int, int) override { refuse(name); }
@@ -66,7 +66,7 @@ class NoAssets : public AssetReader {
 
   private:
     [[noreturn]] static void refuse(const std::string& name) {
-        throw AssetError("there are no assets here, so not \"" + name + "\" either");
+        throw AssetError("there are no assets here, so \"" + name + "\" cannot be read");
     }
 };
 

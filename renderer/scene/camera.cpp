@@ -14,7 +14,7 @@ using glm::dvec3;
 
 constexpr double default_fov_y_deg = 40;
 constexpr double any = std::numeric_limits<double>::infinity();
-/// Of the near plane's distance to the far one's. The depth buffer holds 32-bit floats.
+/// The near plane's distance over the far plane's. The depth buffer holds 32-bit floats.
 constexpr double least_ratio = 1e-6;
 constexpr double least_sine = 1e-6;  // of the angle between `up` and the line of sight
 
@@ -27,13 +27,13 @@ double half_height(double fov_y_deg) {
     return std::tan(glm::radians(fov_y_deg) / 2);
 }
 
-/// Of length 1, however long or short the vector is; 0 for one that is 0.
+/// A vector of length 1, however long or short `vector` is; 0 if it is 0.
 dvec3 direction_of(const dvec3& vector) {
     const double longest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
     return longest > 0 ? glm::normalize(vector / longest) : dvec3(0);
 }
 
-/// From `from` to `to`, also where their difference is no double.
+/// From `from` to `to`, even if their difference overflows a double.
 dvec3 direction_between(const dvec3& from, const dvec3& to) {
     return direction_of(to / 2.0 - from / 2.0);
 }
@@ -44,7 +44,7 @@ std::array<dvec3, 4> sides_of_view(double fov_y_deg, double aspect) {
     return {dvec3(1, 0, width), {-1, 0, width}, {0, 1, height}, {0, -1, height}};
 }
 
-/// What of the polygon lies on the inner side. (Sutherland and Hodgman 1974.)
+/// Keeps the part of the polygon on the inner side. (Sutherland and Hodgman 1974.)
 void cut_polygon(std::vector<dvec3>& polygon, const dvec3& side) {
     std::vector<dvec3> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -56,7 +56,7 @@ void cut_polygon(std::vector<dvec3>& polygon, const dvec3& side) {
     polygon = std::move(kept);
 }
 
-/// How far ahead of the eye what lies in the view begins and ends.
+/// The range of distances ahead of the eye that the visible geometry spans.
 class ViewDepths {
   public:
     ViewDepths(double fov_y_deg, double aspect) : m_sides(sides_of_view(fov_y_deg, aspect)) {}
@@ -90,8 +90,8 @@ class ViewDepths {
     double m_nearest = any, m_farthest = 0;
 };
 
-/// Clip coordinates may all be multiplied by the same number: here by a power of two, so that floats hold them however
-/// large or small the scene is.
+/// Clip coordinates may all be multiplied by the same number: here by a power of two, so that they fit in floats
+/// however large or small the scene is.
 glm::mat4 to_float(const glm::dmat4& clip, double far) {
     const int exponent = std::abs(std::ilogb(far)) > 20 ? std::ilogb(far) : 0;
     glm::mat4 matrix;
@@ -124,13 +124,14 @@ glm::dmat4 Camera::projection(const Planes& planes, double aspect) const {
 }
 
 Param camera_parameter() {
-    Param camera =
-        Param::object("camera", "where the scene is looked at from; without one all of it is in the picture",
-                      {Param::numbers("eye", "where the camera is: x, y, z with y up", "", {4, 3, 6}, -any, any),
-                       Param::numbers("target", "what is in the middle of the picture", "", {0, 1.5, 0}, -any, any),
-                       Param::numbers("up", "what points up in the picture", "", {0, 1, 0}, -any, any),
-                       Param::number("fov_y_deg", "angle between the top and the bottom of the picture", "deg",
-                                     default_fov_y_deg, 1, 170)});
+    const std::vector<std::string> axes = {"x", "y", "z"};
+    Param camera = Param::object(
+        "camera", "where the scene is seen from; without a camera, all of the scene is in the picture",
+        {Param::numbers("eye", "where the camera is; y is up", "", {4, 3, 6}, -any, any).of(axes),
+         Param::numbers("target", "what is in the middle of the picture", "", {0, 1.5, 0}, -any, any).of(axes),
+         Param::numbers("up", "what points up in the picture", "", {0, 1, 0}, -any, any).of(axes),
+         Param::number("fov_y_deg", "angle between the top and the bottom of the picture", "deg", default_fov_y_deg, 1,
+                       170)});
     camera.optional = true;
     return camera;
 }

@@ -21,7 +21,7 @@ std::uint32_t key_of(float depth) {
     return negative ? bits : ~(bits | 0x80000000u);
 }
 
-/// The direction in the vertices' space in which depth grows: that of w where there is perspective, else that of z.
+/// The direction in the vertices' space in which depth grows: that of w with perspective, otherwise that of z.
 glm::vec3 depth_axis(const glm::mat4& view_projection) {
     const auto row = [&](int i) {
         return glm::vec3(view_projection[0][i], view_projection[1][i], view_projection[2][i]);
@@ -51,7 +51,7 @@ DepthSort::DepthSort(const gl::Functions& gl, const Geometry& geometry)
     m_scratch.resize(m_centres.size());
     m_sorted.resize(m_indices.size());
     m_buffer =
-        gl::make_buffer(gl, "indices sorted anew", static_cast<GLsizeiptr>(m_indices.size() * sizeof(m_indices[0])),
+        gl::make_buffer(gl, "newly sorted indices", static_cast<GLsizeiptr>(m_indices.size() * sizeof(m_indices[0])),
                         nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
 

@@ -7,26 +7,26 @@
 
 namespace sheer {
 
-/// What an engine pays in every frame to draw a scene's transparent primitives in the order of their depths from a
-/// camera that has moved: a key for each, a radix sort of the keys, the indices in that order, and their upload.
+/// What an engine must do in every frame to draw a scene's transparent primitives in depth order after the camera has
+/// moved: compute a key for each, radix-sort the keys, write the indices in that order, and upload them.
 ///
-/// The orders of Scene are made once, so no timed frame pays for them. This sort has a buffer of its own and is drawn
-/// by nobody.
+/// The orders of Scene are made once, so no timed frame includes them. This sort has a buffer of its own, which is
+/// never drawn.
 class DepthSort {
   public:
     /// `gl` outlives it. The geometry must have a transparent primitive.
     DepthSort(const gl::Functions& gl, const Geometry& geometry);
 
     /// Sorts far to near, primitives of equal depth in the order of submission, as Scene does, and waits until the
-    /// device has the indices. The camera is turned around the scene's middle by `turn_rad`; scenes without one are not
-    /// turned.
+    /// device has the indices. The camera is turned around the scene's middle by `turn_rad`; scenes without a camera
+    /// are not turned.
     void sort(double turn_rad);
-    /// Wall time of that in ms, from an idle device to an idle device, with the camera a degree further each time.
+    /// Wall time of a sort in ms, from idle device to idle device, with the camera a degree further each time.
     double time_next_ms();
 
     /// The sorted primitives, numbered among the transparent ones in the order of submission.
     std::vector<std::uint32_t> order() const;
-    /// What was uploaded last.
+    /// The indices that were last uploaded.
     const std::vector<std::uint32_t>& indices() const { return m_sorted; }
 
   private:

@@ -4,10 +4,9 @@
 // every platform.
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
+#include "renderer/core/work_queue.h"
 #include "renderer/scene/volume.h"
 
 namespace sheer {
@@ -95,7 +94,7 @@ float face(const vec3& p) {
 }
 
 float ear(const vec3& p) {
-    // Turned outwards: the rear edge stands off the head.
+    // Turned outwards, so that the rear edge stands away from the head.
     const vec3 turned(p.x + 0.35f * (p.z + 0.05f), p.y + 0.2f * p.z, p.z);
     float d = ellipsoid(turned, {0.525f, 0.10f, -0.06f}, {0.045f, 0.165f, 0.105f});
     d = join(d, ellipsoid(turned, {0.515f, -0.035f, -0.035f}, {0.03f, 0.055f, 0.045f}), 0.03f);
@@ -142,7 +141,7 @@ float facial_bones(const vec3& p) {
     d = cut(d, ellipsoid(p, {0.045f, -0.01f, 0.42f}, {0.035f, 0.09f, 0.12f}), 0.02f);
     d = cut(d, ellipsoid(p, {0, -0.25f, 0.33f}, {0.125f, 0.09f, 0.17f}), 0.03f);
     d = cut(d, ellipsoid(p, {0.26f, -0.13f, 0.36f}, {0.075f, 0.085f, 0.15f}), 0.03f);
-    // The arch from cheek to temple stands free of the skull.
+    // The arch from cheek to temple is separate from the skull.
     const float arch = join(capsule(p, {0.31f, 0.0f, 0.38f}, {0.435f, 0.02f, 0.20f}, 0.035f, 0.025f),
                             capsule(p, {0.435f, 0.02f, 0.20f}, {0.43f, 0.06f, 0.02f}, 0.025f, 0.03f), 0.03f);
     return join(d, arch, 0.03f);
@@ -199,7 +198,7 @@ float brain(const vec3& p) {
     float cerebrum = ellipsoid(p, {0.0f, 0.385f, -0.05f}, {0.385f, 0.435f, 0.535f});
     cerebrum = cut(cerebrum, ellipsoid(p, {0, -0.10f, 0.0f}, {0.40f, 0.19f, 0.65f}), 0.08f);
     if (std::abs(cerebrum) < 0.1f) {
-        // Folds: where warped noise passes through 0 a furrow runs.
+        // Folds: there is a furrow where warped noise passes through 0.
         const vec3 warp(noise(p * 5.0f), noise(p * 5.0f + 17.0f), noise(p * 5.0f + 41.0f));
         const float furrow = std::abs(noise(p * 10.0f + warp));
         cerebrum += 0.05f * std::max(0.0f, 1 - 3.5f * furrow);
@@ -243,14 +242,9 @@ class Head {
 
     Volume make() {
         const int rows = (m_size + block_size - 1) / block_size;
-        std::atomic<int> next_row = 0;
-        const auto work = [&] {
-            for (int z = next_row++; z < rows; z = next_row++) fill_row(z * block_size);
-        };
-        std::vector<std::jthread> threads;
-        for (unsigned i = 1; i < std::min(std::thread::hardware_concurrency(), 16u); ++i) threads.emplace_back(work);
-        work();
-        threads.clear();
+        share_work(rows, [&](WorkQueue& queue) {
+            for (int row = 0; queue.take(row);) fill_row(row * block_size);
+        });
         return std::move(m_volume);
     }
 
@@ -260,7 +254,7 @@ class Head {
         return from_middle * m_step + vec3(0, 0, box_middle_z);
     }
 
-    /// 1 where `distance` is within, over an edge of two or three voxels.
+    /// 1 inside the surface, 0 outside, with an edge of two or three voxels.
     float inside(float distance) const { return std::clamp(0.5f - distance / (2 * m_edge), 0.0f, 1.0f); }
 
     float value(const Distances& d) const {
@@ -283,7 +277,7 @@ class Head {
             for (int x = (m_size / 2) / block_size * block_size; x < m_size; x += block_size) fill_block({x, y, z});
     }
 
-    /// A part whose surface does not come near the block is as far from all of it as from its middle.
+    /// If the surface of a part is not near the block, its distance from the block's middle stands for the whole block.
     void fill_block(const glm::ivec3& from) {
         const vec3 middle = position(vec3(from) + 0.5f * (block_size - 1));
         const float reach = 0.75f * block_size * length(m_step) + 2 * m_edge + m_skin_thickness;

@@ -7,7 +7,7 @@
 
 namespace sheer {
 
-/// How a surface reads a picture (glTF 2.0, section 3.8.4). What a file leaves open is repeated and filtered
+/// How a surface reads a picture (glTF 2.0, section 3.8.4). If the file does not say, it is repeated and filtered
 /// trilinearly.
 struct PictureUse {
     enum class Wrap { repeat, clamp, mirror };
@@ -21,24 +21,24 @@ struct PictureUse {
     bool operator==(const PictureUse&) const = default;
 };
 
-/// Bits 0-1 and 2-3 how s and t go on beyond the picture, bit 4 whether a magnified and bit 5 whether a minified one is
-/// read at the nearest texel, bits 6-7 how mipmaps are: in the order of the enumerators.
+/// Bits 0-1 and 2-3: how s and t wrap; bit 4: whether a magnified picture is read at the nearest texel; bit 5: the same
+/// for a minified one; bits 6-7: how mipmaps are filtered. Values are in the order of the enumerators.
 /// (shaders/scenes/material.glsl.)
 std::int32_t sampling_bits(const PictureUse& use);
 
-/// How a surface of a model is drawn. Colours are display values, as in pictures: what a file gives in linear light has
-/// been encoded (srgb_encode) by its reader. Only emitted light is linear, as it is added.
+/// How a surface of a model is drawn. Colors are display values, as in pictures: linear values of a file have been
+/// encoded by its reader (srgb_encode). Only emitted light is linear, because it is added.
 struct Material {
     enum class Alpha { opaque, mask, blend };
 
     Alpha alpha = Alpha::opaque;
-    float cutoff = 0.5f;  ///< of a mask: fragments of less alpha are not there
+    float cutoff = 0.5f;  ///< of a mask: fragments with less alpha are not drawn
     glm::vec4 base_color{1};
-    PictureUse base;       ///< multiplied with the colours
+    PictureUse base;       ///< multiplied with the colors
     glm::vec3 emitted{0};  ///< linear light, may pass 1
-    PictureUse emission;   ///< multiplied with what is emitted; its alpha is of no meaning
+    PictureUse emission;   ///< multiplied with the emitted light; its alpha is ignored
     bool unlit = false;
-    bool double_sided = false;  ///< else triangles are seen from their front alone
+    bool double_sided = false;  ///< otherwise triangles are visible only from their front
 };
 
 struct ModelVertex {
@@ -57,14 +57,15 @@ struct ModelPart {
     std::uint32_t material = 0;  ///< index into Model::materials
 };
 
-/// A mesh from a file, checked: all numbers are finite, all indices lie within what they point into, and there is at
-/// least one triangle.
+/// A mesh from a file that has been checked: all numbers are finite, all indices are in range, and there is at least
+/// one triangle.
 struct Model {
     std::vector<ModelPart> parts;
     std::vector<Material> materials;
     std::vector<Picture> pictures;  ///< of sizes that arrange_pictures leaves as they are
-    glm::dvec3 origin{0};     ///< in the file's space; the middle of the model, so that floats hold positions well
-    std::vector<Note> notes;  ///< what of the file was not read, or read otherwise
+    glm::dvec3 origin{
+        0};  ///< in the file's space; the middle of the model, so that positions keep their precision as floats
+    std::vector<Note> notes;  ///< what was not read from the file, or read differently
 };
 
 /// Linear light 0..1 as the display value that stands for it (IEC 61966-2-1); outside of 0..1 it is clamped.

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "renderer/frame/image.h"
-#include "renderer/notes.h"
+#include "renderer/core/notes.h"
+#include "renderer/image/image.h"
 
 namespace sheer {
 
@@ -10,7 +10,7 @@ namespace sheer {
 struct Picture {
     Image image;
     bool eight_bit = true;    ///< the file has 8 bits a channel, so that 8 bits keep all of it
-    std::vector<Note> notes;  ///< what of the file was read otherwise
+    std::vector<Note> notes;  ///< what was read differently from the file
 };
 
 }  // namespace sheer

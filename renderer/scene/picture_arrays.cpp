@@ -38,8 +38,8 @@ Sizes distinct(Sizes sizes) {
     return sizes;
 }
 
-/// The sizes of the arrays, few enough. Sizes that are a level of a larger one go first; if there are still too many,
-/// what is left of the smallest are scaled, in `sizes`.
+/// The sizes of the arrays, reduced until they are few enough. Sizes that are a mipmap level of a larger one are
+/// dropped first; if there are still too many, the smallest of the others are scaled, in `sizes`.
 Sizes array_sizes(Sizes& sizes) {
     Sizes arrays = distinct(sizes);
     for (std::size_t i = 0; i < arrays.size() && arrays.size() > max_picture_arrays;) {
@@ -68,7 +68,7 @@ PictureArrays placed(Sizes sizes) {
     for (const ivec2& size : array_sizes(sizes)) arranged.arrays.push_back({size, 0});
     for (const ivec2& size : sizes) {
         PictureArrays::Place place;
-        // The arrays stand small to large, so that the first one that fits wastes least.
+        // The arrays are ordered from small to large, so that the first one that fits wastes least.
         for (std::size_t array = 0; array < arranged.arrays.size(); ++array)
             if (const auto level = level_of(size, arranged.arrays[array].size_px)) {
                 place = {static_cast<int>(array), arranged.arrays[array].layers++, *level};

@@ -19,16 +19,16 @@ struct PictureArrays {
     };
     std::vector<Array> arrays;
     std::vector<Place> places;         ///< of the pictures
-    std::vector<glm::ivec2> sizes_px;  ///< of the pictures as they must be to lie there: of some a scaled one
+    std::vector<glm::ivec2> sizes_px;  ///< of the pictures as they are stored; some are scaled
 };
 
 inline constexpr std::size_t max_picture_arrays = 5;
 inline constexpr int max_model_picture_side_px = 2048;
 inline constexpr std::size_t max_model_texels = std::size_t{16} << 20;
 
-/// For pictures of these sizes, at least 1 a side. Larger ones than max_model_picture_side_px are halved until they
-/// fit, and so are the largest while all layers together have more than max_model_texels. What has been arranged once
-/// is not scaled when it is arranged again.
+/// For pictures of these sizes, at least 1 a side. Those larger than max_model_picture_side_px are halved until they
+/// fit, and the largest are halved while all layers together have more than max_model_texels. Sizes that have been
+/// arranged once are not scaled when they are arranged again.
 PictureArrays arrange_pictures(std::vector<glm::ivec2> sizes_px);
 
 }  // namespace sheer

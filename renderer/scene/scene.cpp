@@ -7,8 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "renderer/errors.h"
-#include "renderer/scene/glsl_shading.h"
+#include "renderer/core/errors.h"
+#include "renderer/glsl/own_shading.h"
 
 namespace sheer {
 
@@ -16,22 +16,12 @@ namespace {
 
 /// As in shaders/scenes/materials.glsl and material.glsl.
 constexpr GLuint pictures_unit = 3, materials_binding = 4;
-static_assert(pictures_unit + max_picture_arrays <= first_method_texture_unit);
+static_assert(pictures_unit + max_picture_arrays <= gl::first_named_texture_unit);
 
-/// What `shading` of a spec means to shaders/scenes/real_work.glsl.
-struct Shading {
-    std::string_view name;
-    int reads;  // texture reads of a fragment, from the textures in turn
-    bool math;
-};
-constexpr Shading shadings[] = {{"constant", 0, false},      {"1-texture", 1, false},
-                                {"4-textures", 4, false},    {"4-textures-math", 4, true},
-                                {"4x4-textures", 16, false}, {"4x4-textures-math", 16, true}};
-
-/// Null for a shading that only one scene has.
+/// Null for a shading that belongs to one scene type.
 const Shading* find_shading(const std::string& name) {
-    const auto* found = std::ranges::find(shadings, name, &Shading::name);
-    return found == std::end(shadings) ? nullptr : found;
+    const auto* found = std::ranges::find(shadings::all, name, &Shading::name);
+    return found == std::end(shadings::all) ? nullptr : found;
 }
 
 std::string define(const std::string& name, int value) {
@@ -52,7 +42,7 @@ std::string material_defines(const Geometry& geometry) {
            define("EMISSIVE", std::ranges::any_of(geometry.materials, emits));
 }
 
-/// Far to near; of equal depths the earlier submitted first.
+/// Far to near; of equal depths, the one submitted earlier comes first.
 void sort_far_to_near(std::vector<std::size_t>& order, const Geometry& geometry) {
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
         return geometry.primitives[a].depth > geometry.primitives[b].depth;
@@ -66,13 +56,26 @@ bool has_one_tint_a_triangle(const Geometry& geometry) {
     return true;
 }
 
+glm::vec4 screen_rect(const Geometry& geometry, const Primitive& primitive) {
+    constexpr glm::vec4 everywhere{-1, -1, 2, 2};
+    glm::vec2 least{1e30f}, greatest{-1e30f};
+    for (std::uint32_t i = primitive.first_index; i < primitive.first_index + primitive.index_count; ++i) {
+        const glm::vec4 clip = geometry.view_projection * glm::vec4(geometry.vertices[geometry.indices[i]].position, 1);
+        if (clip.w <= 1e-6f) return everywhere;  // it may reach behind the eye
+        const glm::vec2 fraction = glm::vec2(0.5f + 0.5f * clip.x / clip.w, 0.5f - 0.5f * clip.y / clip.w);
+        least = glm::min(least, fraction);
+        greatest = glm::max(greatest, fraction);
+    }
+    return {least, greatest};
+}
+
 }  // namespace
 
 Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters)
     : m_gl(gl),
       m_parallel(geometry.parallel),
       m_flat_tint(has_one_tint_a_triangle(geometry)),
-      m_alpha_is_given(m_flat_tint && parameters.at("shading") == "constant"),
+      m_alpha_is_given(m_flat_tint && parameters.at("shading") == shadings::constant.name),
       m_view_projection(geometry.view_projection) {
     m_vertex_source =
         glsl_version + define("SHEER_FLAT_TINT", m_flat_tint) + std::string(gl::shader_file("scenes/scene.vert.glsl"));
@@ -98,6 +101,7 @@ Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::
     }
     if (!geometry.emission_uvs.empty()) add_emission_uvs(geometry.emission_uvs);
 
+    for (const Primitive& primitive : geometry.primitives) m_screen_rects.push_back(screen_rect(geometry, primitive));
     std::vector<std::size_t> opaque, transparent;
     for (std::size_t i = 0; i < geometry.primitives.size(); ++i)
         (geometry.primitives[i].opaque ? opaque : transparent).push_back(i);
@@ -141,7 +145,8 @@ Scene::DrawList Scene::make_list(const Geometry& geometry, const std::vector<std
 }
 
 void Scene::make_shading(const Geometry& geometry, const nlohmann::json& parameters) {
-    m_shading_source = define("SHEER_FLAT_TINT", m_flat_tint) + std::string(gl::shader_file("scenes/inputs.glsl"));
+    m_shading_source = define("SHEER_HAS_CAMERA", !geometry.camera.is_null()) + define("SHEER_FLAT_TINT", m_flat_tint) +
+                       std::string(gl::shader_file("scenes/inputs.glsl"));
     m_shading_source += define(
         "SHEER_MASKED",
         std::ranges::any_of(geometry.materials, [](const SurfaceMaterial& material) { return material.cutoff > 0; }));
@@ -243,11 +248,25 @@ void Scene::fill_painted_layer(GLint layer, const std::vector<TextureLevel>& lev
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
                                 const std::string& prolog) const {
+    return build_program(label, m_vertex_source, method_source, prolog);
+}
+
+gl::Program Scene::make_skipping_program(std::string_view label, std::string_view method_source,
+                                         std::string_view skip_source, const std::string& prolog) const {
+    const std::size_t after_version = std::string_view(glsl_version).size();
+    return build_program(
+        label,
+        glsl_version + define("SHEER_SKIPS", 1) + m_vertex_source.substr(after_version) + std::string(skip_source),
+        method_source, prolog);
+}
+
+gl::Program Scene::build_program(std::string_view label, const std::string& vertex_source,
+                                 std::string_view method_source, const std::string& prolog) const {
     const std::string report = m_reports_loops ? define("SHEER_REPORT_LOOPS", loop_report_binding) : "";
     const std::string fragment = glsl_version + prolog + report + m_shading_source +
                                  std::string(gl::shader_file("scenes/count_shaded.glsl")) + std::string(method_source);
     try {
-        return gl::Program(m_gl, label, m_vertex_source, fragment);
+        return gl::Program(m_gl, label, vertex_source, fragment);
     } catch (const RenderError& error) {
         const std::string messages = user_messages(error.what());
         if (messages.empty()) throw;

@@ -10,17 +10,17 @@ namespace sheer {
 
 enum class Order { submission, near_to_far, far_to_near };
 
-/// Stands between methods and the drawing of transparent primitives, for instance to count what they shade.
+/// Intercepts the drawing of transparent primitives, for instance to count what methods shade.
 class DrawObserver {
   public:
     virtual ~DrawObserver() = default;
-    /// Takes the place of Scene::draw_transparent; draws by Scene::draw_unobserved.
+    /// Replaces Scene::draw_transparent; draws with Scene::draw_unobserved.
     virtual void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) = 0;
 };
 
 /// A scene on the device: geometry in each order, textures, and the shading `real_work`.
 ///
-/// In every order, primitives of equal depth stand as if the later submitted one were nearer.
+/// In every order, of primitives with equal depth the one submitted later counts as nearer.
 class Scene {
   public:
     /// `parameters` are the normalised ones of the spec, for shading and texture.
@@ -33,25 +33,32 @@ class Scene {
     /// The number of the primitive, in the order of submission and opaque ones counted too, at `place` of this order.
     std::uint32_t primitive_at(Order order, std::size_t place) const { return list(order).primitives[place]; }
     bool has_opaque() const { return m_opaque_index_count > 0; }
+    /// The screen rectangle of each primitive, by its number (primitive_at): left, top, right and bottom in fractions
+    /// of the image, from its top left corner. It holds every fragment, and may reach beyond the image.
+    const std::vector<glm::vec4>& screen_rects() const { return m_screen_rects; }
 
-    /// The alpha from which on a fragment has at least the alpha `reference`. The same where alphas reach the fragments
-    /// as they were given; a little less where they are read from textures or interpolated, which rounds them: by
-    /// 2^-12, which is half of what a half float of 0.5 to 1 can tell apart and a sixteenth of a level of 8 bits.
+    /// The alpha from which on a fragment counts as having at least the alpha `reference`. It is `reference` itself if
+    /// alphas reach the fragments as they were given; 2^-12 less if they are read from textures or interpolated, which
+    /// rounds them. 2^-12 is half the spacing of half floats from 0.5 to 1 and a sixteenth of an 8-bit level.
     float least_alpha(double reference) const;
 
     /// A program that draws this scene: its vertex stage, `real_work(vec2 uv, vec4 tint)`, then `method_source` with
     /// main(). `prolog` comes right after #version: #extension and #define lines.
-    /// main() sees what is in shaders/scenes/inputs.glsl; where it asks for a uniform int u_first_triangle, this plus
+    /// main() sees what is in shaders/scenes/inputs.glsl; if it declares a uniform int u_first_triangle, this plus
     /// gl_PrimitiveID is a triangle's place in the order that is drawn, however many draws it is divided into.
-    /// Throws SpecError at /scene/shading/glsl if it is the user's own shading that does not compile.
+    /// Throws SpecError at /scene/shading/glsl if the user's own shading does not compile.
     gl::Program make_program(std::string_view label, std::string_view method_source,
                              const std::string& prolog = {}) const;
+    /// The same, but the primitives of which `skip_source`, GLSL of the vertex stage, says `bool sheer_skips(uint
+    /// primitive)` are not drawn.
+    gl::Program make_skipping_program(std::string_view label, std::string_view method_source,
+                                      std::string_view skip_source, const std::string& prolog = {}) const;
 
     /// Whether the shading is the user's own and has loops, which count their iterations.
-    /// (renderer/frame/loop_check.h.)
+    /// (renderer/counting/loop_check.h.)
     bool counts_iterations() const { return m_counts_iterations; }
-    /// While it is on, programs are made that set the first word of the storage buffer at loop_report_binding to 1
-    /// where an iteration is refused. They are not fit for timing.
+    /// While it is on, new programs set the first word of the storage buffer at loop_report_binding to 1 when an
+    /// iteration is refused. They are not fit for timing.
     void report_loops(bool on) { m_reports_loops = on; }
 
     /// Draws with `program` (of make_program) in use; binds the vertex array and texture unit 0.
@@ -60,7 +67,7 @@ class Scene {
     /// `count` primitives from the `first` in this order.
     void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) const;
 
-    /// From now on `observer` draws the transparent primitives; null for the scene itself.
+    /// From now on `observer` draws the transparent primitives; with null, the scene itself does.
     void observe(DrawObserver* observer) { m_observer = observer; }
     void draw_unobserved(const gl::Program& program, Order order, std::size_t first, std::size_t count) const;
 
@@ -70,6 +77,8 @@ class Scene {
         std::vector<std::size_t> first_index;   ///< of each primitive, and one past the last
         std::vector<std::uint32_t> primitives;  ///< their numbers
     };
+    gl::Program build_program(std::string_view label, const std::string& vertex_source, std::string_view method_source,
+                              const std::string& prolog) const;
     DrawList make_list(const Geometry& geometry, const std::vector<std::size_t>& order, std::string_view label) const;
     void make_shading(const Geometry& geometry, const nlohmann::json& parameters);
     void add_own_shading(const Geometry& geometry, const nlohmann::json& parameters);
@@ -87,12 +96,13 @@ class Scene {
     DrawObserver* m_observer = nullptr;
     bool m_parallel;
     bool m_flat_tint;       ///< every triangle has one tint
-    bool m_alpha_is_given;  ///< and its alpha is that of all its fragments
+    bool m_alpha_is_given;  ///< and all its fragments have its alpha
     glm::mat4 m_view_projection;
     std::string m_vertex_source;
     std::string m_shading_source;  ///< GLSL with inputs and real_work
     bool m_counts_iterations = false, m_reports_loops = false;
     std::size_t m_transparent_count = 0;
+    std::vector<glm::vec4> m_screen_rects;
     GLsizei m_opaque_index_count = 0;
     gl::Buffer m_vertices;
     gl::VertexArray m_vertex_array;
@@ -105,9 +115,6 @@ class Scene {
     std::vector<gl::Texture> m_pictures;
     gl::Buffer m_emission_uvs;
 };
-
-/// First texture unit that methods may use.
-inline constexpr GLuint first_method_texture_unit = 8;
 
 inline constexpr GLuint loop_report_binding = 7;
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "renderer/scene/glsl_shading.h"
+#include "renderer/core/names.h"
+#include "renderer/glsl/own_shading.h"
 #include "renderer/scene/textures.h"
-#include "renderer/spec/names.h"
 
 namespace sheer {
 
@@ -22,17 +22,17 @@ const SceneInfo* find_scene(const std::string& id) {
 
 std::vector<Param> SceneInfo::all_parameters() const {
     std::vector<Param> all = parameters;
-    std::vector<std::string> shadings = {"constant",        "1-texture",    "4-textures",
-                                         "4-textures-math", "4x4-textures", "4x4-textures-math"};
-    if (!own_shading.empty()) shadings.push_back(own_shading);
+    std::vector<std::string> names;
+    for (const Shading& shading : shadings::all) names.emplace_back(shading.name);
+    if (!own_shading.empty()) names.push_back(own_shading);
     Param glsl =
         Param::text("glsl", "body of vec4 real_work(vec2 uv, vec4 tint), see docs/shading.md", "", max_glsl_bytes);
     glsl.min_length = 1;
     all.push_back(Param::choice_or_object(
-        "shading", "what the fragment shader does: textures read and positions bent, or GLSL of your own",
-        default_shading, std::move(shadings), {glsl.required()}));
+        "shading", "what the fragment shader does: read textures and bend positions, or your own GLSL",
+        own_shading.empty() ? std::string(default_shading.name) : own_shading, std::move(names), {glsl.required()}));
     all.push_back(Param::object("texture", "the four textures that the shading reads",
-                                {Param::asset("image", "what they show: one name for all four, or one for each",
+                                {Param::asset("image", "their picture: one name for all four, or one for each",
                                               "texture", default_texture, {"leaf", "smoke"})
                                      .or_each_of(texture_count),
                                  Param::integer("size", "width and height", "px", 1024, 1, 4096)}));

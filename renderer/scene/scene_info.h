@@ -8,25 +8,26 @@
 #include <string>
 #include <vector>
 
-#include "renderer/notes.h"
+#include "renderer/core/notes.h"
+#include "renderer/image/image_spec.h"
+#include "renderer/params/param.h"
 #include "renderer/scene/assets.h"
 #include "renderer/scene/picture_arrays.h"
+#include "renderer/scene/shadings.h"
 #include "renderer/scene/volume_shading.h"
-#include "renderer/spec/param.h"
-#include "renderer/spec/spec.h"
 
 namespace sheer {
 
 struct Vertex {
     glm::vec3 position;       ///< before view_projection; with the identity: x right, y up, -1..1, depth 0 (near) to 1
     glm::vec2 uv;             ///< v down; untextured_uv: the tint alone, for opaque primitives
-    glm::vec4 tint;           ///< straight colour and alpha; colours may pass 1, methods clamp the shaded fragment
+    glm::vec4 tint;           ///< straight color and alpha; colors may pass 1, methods clamp the shaded fragment
     std::uint32_t primitive;  ///< index into Geometry::primitives
     std::uint32_t material = 0;  ///< index into Geometry::materials, where there are any
 };
 
-/// At every vertex of an opaque primitive: its colour is the tint, whatever the shading. No picture's coordinates lie
-/// so far out. (shaders/common/opaque.glsl.)
+/// If every vertex of an opaque primitive has this, its color is the tint, whatever the shading. No picture's
+/// coordinates are this far out. (shaders/common/opaque.glsl.)
 inline constexpr glm::vec2 untextured_uv{-1e9f, -1e9f};
 
 /// What a sorted method orders: a quad, a sprite, a slice, a triangle.
@@ -49,23 +50,23 @@ struct SurfacePicture {
 struct SurfaceMaterial {
     SurfacePicture base, emission;
     glm::vec3 emitted{0};  ///< linear light
-    float cutoff = 0;      ///< opaque fragments of less alpha are not there
+    float cutoff = 0;      ///< opaque fragments with less alpha are not drawn
 };
 
-/// A scene on the CPU. Primitives stand in the order of submission.
+/// A scene on the CPU. Primitives are in the order of submission.
 struct Geometry {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;  ///< triangles
     std::vector<Primitive> primitives;
     glm::mat4 view_projection{1.0f};
-    nlohmann::json camera;  ///< where it is looked at from, as the spec says it; null for scenes that have no camera
+    nlohmann::json camera;  ///< where it is seen from, as in the spec; null for scenes without a camera
     std::vector<SurfaceMaterial> materials;
-    std::vector<Picture> pictures;            ///< of the materials
-    PictureArrays picture_arrays;             ///< where the pictures lie
-    std::vector<glm::vec2> emission_uvs;      ///< of the vertices, where a material has an emission picture; else none
-    std::map<std::string, Picture> textures;  ///< square; of the four textures those that are files, by their names
+    std::vector<Picture> pictures;        ///< of the materials
+    PictureArrays picture_arrays;         ///< where the pictures lie
+    std::vector<glm::vec2> emission_uvs;  ///< of the vertices, if a material has an emission picture; otherwise empty
+    std::map<std::string, Picture> textures;  ///< square; those of the four textures that are files, by name
     std::optional<VolumeShading> volume;
-    bool parallel = false;    ///< drawing the primitives in depth order is exact: none intersect, each has one depth
+    bool parallel = false;  ///< no primitives intersect and each has one depth, so drawing them in depth order is exact
     std::vector<Note> notes;  ///< of the files that the scene is made from
 
     /// Appends a rectangle parallel to the screen: corners in fractions of the image, origin top left, y down.
@@ -79,29 +80,30 @@ struct SceneInfo {
     std::string id;
     std::string name;
     std::string summary;
-    std::string source;             ///< paper or "Sheer"
-    std::vector<Param> parameters;  ///< without those that every scene has, see all_parameters()
-    std::string default_shading = "constant";
-    std::string own_shading;  ///< a shading that only this scene has: shaders/scenes/<own_shading>.glsl; "" for none
+    std::string source;                            ///< paper or "Sheer"
+    std::vector<Param> parameters;                 ///< without those that every scene has, see all_parameters()
+    Shading default_shading = shadings::constant;  ///< of a scene without its own
+    std::string own_shading;  ///< its own shading, then the default: shaders/scenes/<own_shading>.glsl; "" for none
     std::string default_texture = "leaf";
-    /// Adds errors that several fields make together; null where none can. `scene` is normalised and lies at `pointer`.
+    /// Adds errors that concern several fields together; null if there can be none. `scene` is normalised and at
+    /// `pointer`.
     std::function<void(const nlohmann::json& scene, const std::string& pointer, std::vector<FieldError>& errors)> check;
     /// Throws AssetError, which becomes a SpecError at the field `asset_field` of the scene.
     std::function<Geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets)> build;
-    std::string asset_field;                             ///< what `build` reads by `assets`; "" for nothing
-    std::string transparent = "transparent primitives";  ///< what of it is: "The scene has no ..." where there is none
+    std::string asset_field;                             ///< what `build` reads with `assets`; "" for nothing
+    std::string transparent = "transparent primitives";  ///< its name in messages: "The scene has no ..."
 
-    /// Its own and the ones common to all scenes: shading and texture.
+    /// Its own parameters and those of all scenes: shading and texture.
     std::vector<Param> all_parameters() const;
 };
 
 /// Every scene type, from the generated table.
 const std::vector<SceneInfo>& all_scenes();
-/// Null if there is none of this id; letter case is passed over.
+/// Null if there is none with this id, which is case-insensitive.
 const SceneInfo* find_scene(const std::string& id);
 
 /// The scene of a normalised spec, with those of its textures that are files.
-/// Throws SpecError, at the field that refers to it, for a file that cannot be used.
+/// Throws SpecError for a file that cannot be used, at the field that refers to it.
 Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets);
 /// Every file that a normalised scene refers to, with pointers from /scene.
 std::vector<AssetReference> scene_assets(const nlohmann::json& scene);
@@ -113,7 +115,7 @@ struct SourceFile {
 
     bool operator==(const SourceFile&) const = default;
 };
-/// Those of the files that `assets` has read which belong to this scene.
+/// Those files that `assets` has read for this scene.
 std::vector<SourceFile> source_files(const nlohmann::json& scene, const AssetReader& assets);
 /// {pointer, name, of, sha256, bytes} of each; `of` is null for a file that the spec itself names.
 nlohmann::json to_json(const std::vector<SourceFile>& files);

@@ -49,7 +49,7 @@ class Solid {
     std::uint32_t m_primitive;
 };
 
-/// Two unit vectors at right angles to `axis`, which is one too, and to each other.
+/// Two unit vectors at right angles to the unit vector `axis` and to each other.
 std::pair<dvec3, dvec3> across(const dvec3& axis) {
     const dvec3 other = std::abs(axis.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
     const dvec3 first = glm::normalize(glm::cross(axis, other));

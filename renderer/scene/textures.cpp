@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <stdexcept>
 
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 
 namespace sheer {
 
@@ -66,7 +66,7 @@ struct Leaf {
     float length, half_width;
     vec3 color;
 
-    /// Straight colour and alpha at `p`; `edge` is the softness of the rim in texture units.
+    /// Straight color and alpha at `p`; `edge` is the softness of the rim in texture units.
     vec4 at(vec2 p, float edge, const Noise& noise) const {
         const vec2 from_base = p - base;
         const float along = (from_base.x * direction.x + from_base.y * direction.y) / length;
@@ -95,7 +95,7 @@ std::vector<Leaf> make_leaves(int variant) {
     const vec3 greens[4] = {{0.26f, 0.52f, 0.12f}, {0.45f, 0.58f, 0.14f}, {0.17f, 0.42f, 0.17f}, {0.66f, 0.46f, 0.10f}};
     std::vector<Leaf> leaves;
     for (int i = 0; i < 9; ++i) {
-        // A point on the unit circle by its rational parametrisation: no sine, so the same everywhere.
+        // A point on the unit circle by its rational parametrisation: no sine, so it is the same on every platform.
         const auto t = static_cast<float>(random.between(-1, 1));
         vec2 direction = vec2(1 - t * t, 2 * t) / (1 + t * t);
         if (i % 2 == 1) direction = -direction;
@@ -152,7 +152,7 @@ TextureLevel paint(const std::string& image, int size_px, int variant) {
     return level;
 }
 
-/// Half the size. Where all four texels are transparent their plain mean keeps a colour under the alpha of 0.
+/// Half the size. If all four texels are transparent, their plain mean keeps a color under the alpha of 0.
 TextureLevel halved(const TextureLevel& source) {
     const int size = source.size_px / 2;
     TextureLevel level{size, std::vector<std::uint8_t>(static_cast<std::size_t>(size) * size * 4)};

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/frame/image.h"
+#include "renderer/image/image.h"
 
 namespace sheer {
 
@@ -20,12 +20,12 @@ struct TextureLevel {
 ///
 /// `image` is "leaf" (leaves with soft edges, veins and holes between them) or "smoke" (a soft cloud); `variant` 0..3
 /// gives the four different textures of a scene. Only additions, multiplications, divisions and square roots are used,
-/// so that the bytes are the same on every platform. Mipmaps are box-filtered with the colour weighted by alpha.
+/// so that the bytes are the same on every platform. Mipmaps are box-filtered with the color weighted by alpha.
 /// Throws std::invalid_argument for another `image`.
 std::vector<TextureLevel> make_texture(const std::string& image, int size_px, int variant);
 
 /// The picture and its mipmaps, down to 1x1, filtered in the same way. Each level is half the one before, rounded down;
-/// where a side is odd its last row or column is left out, as in the non-power-of-two box filter.
+/// if a side is odd, its last row or column is left out, as in the non-power-of-two box filter.
 std::vector<Image> make_mipmaps(Image picture);
 
 }  // namespace sheer

@@ -12,13 +12,13 @@ struct VolumeShading {
     Volume volume;
     glm::mat4 to_texture{1};  ///< from the scene's space, in which the camera is at the origin: 0..1 over the box
     glm::vec2 value{1, 0};    ///< a value is what the texture gives times x, plus y
-    std::vector<glm::vec4> transfer;  ///< straight colour and alpha of a slice for the values 0..1, evenly spread
+    std::vector<glm::vec4> transfer;  ///< straight color and alpha of a slice for the values 0..1, evenly spread
     bool light = true;
     glm::vec3 to_sun{0, 0, 1};  ///< of length 1, in the scene's space
 };
 
-/// Opacity of a path through something of which a path of length 1 has the opacity `alpha` (0..1): 1 - (1 -
-/// alpha)^length.
+/// Opacity of a path through a medium in which a path of length 1 has the opacity `alpha` (0..1):
+/// 1 - (1 - alpha)^length.
 double opacity_of(double alpha, double length);
 
 /// A VolumeShading on the device.

@@ -5,13 +5,15 @@
 
 #include <algorithm>
 
-#include "renderer/methods/method.h"
-#include "renderer/metrics/metric.h"
-#include "renderer/scene/glsl_shading.h"
+#include "renderer/core/names.h"
+#include "renderer/glsl/own_shading.h"
+#include "renderer/methods/shared/method.h"
+#include "renderer/metrics/shared/metric.h"
+#include "renderer/params/json_text.h"
+#include "renderer/params/param.h"
+#include "renderer/results/quantity.h"
 #include "renderer/scene/scene_info.h"
-#include "renderer/spec/json_text.h"
-#include "renderer/spec/names.h"
-#include "renderer/spec/param.h"
+#include "renderer/spec/spec_fields.h"
 #include "renderer/spec/suites.h"
 
 namespace sheer {
@@ -20,8 +22,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t max_methods = 64, max_tags = 32, max_text_bytes = 200;
-constexpr std::size_t max_point_bytes = 500;  // of a point in the text of an error
+constexpr std::size_t max_point_bytes = 500;  // of a point shown in an error
 
 Param optional_number(std::string name, std::string summary) {
     Param param{.name = std::move(name), .summary = std::move(summary)};
@@ -29,7 +30,7 @@ Param optional_number(std::string name, std::string summary) {
     return param;
 }
 
-/// A field that is read by a description of its own; `max_length` where it is a list or an object.
+/// A field that has its own reader; `max_length` if it is a list or an object.
 Param any(std::string name, std::string summary, json fallback, std::size_t max_length = 0) {
     Param param{.name = std::move(name), .kind = Param::Kind::any, .summary = std::move(summary)};
     param.optional = true;
@@ -45,64 +46,60 @@ Param optional_text(std::string name, std::string summary) {
     return param;
 }
 
-std::vector<std::string> metric_names() {
-    std::vector<std::string> names = {
-        "speedup",           "speedup_with_sort", "timing.sort.median",   "timing.median",
-        "timing.min",        "timing.p95",        "fragments.submitted",  "fragments.shaded",
-        "fragments.visible", "fragments.needed",  "fragments.efficiency", "memory_bytes"};
-    for (const MetricInfo& metric : all_metrics())
-        for (const MetricField& field : metric.fields)
-            if (field.is_number) names.push_back(field.name.empty() ? metric.id : metric.id + "." + field.name);
-    return names;
-}
-
 std::vector<Param> check_fields() {
-    Param metric = Param::choice("metric", "the number of the report that is held", "flip.mean", metric_names());
+    Param metric = Param::choice("metric", "the number of the report that is checked", "flip.mean", checkable_names());
     Param method = Param::text("method", "label or id of a method", "", max_text_bytes);
     return {metric.required(), method.required(), optional_number("min", "least value that passes"),
             optional_number("max", "greatest value that passes"),
-            any("at", "values by pointer: only the points of the sweep that have them", json::object())};
+            any("at", "values by JSON pointer: the check applies only to points of the sweep that have them",
+                json::object())};
 }
 
-/// The fields of a spec; scene, methods and reference are read by their own descriptions.
+std::vector<std::string> format_names() {
+    std::vector<std::string> names;
+    for (const PixelFormat format : pixel_formats) names.push_back(to_string(format));
+    return names;
+}
+
+}  // namespace
+
 std::vector<Param> spec_fields() {
     return {
         Param::text("title", "shown with the report", "", max_text_bytes),
-        any("tags", fmt::format("an object of at most {} names and texts to find the report by", max_tags),
+        any("tags", fmt::format("an object of at most {} names and texts, by which the report can be found", max_tags),
             json::object(), max_tags),
-        Param::object(
-            "image", "the picture that is rendered",
-            {Param::integer("width", "columns", "px", 512, 1, 4096),
-             Param::integer("height", "rows", "px", 512, 1, 4096),
-             Param::numbers("background", "red, green, blue behind everything", "", {0, 0, 0}, 0, 1),
-             Param::choice("format", "what the methods blend into", "rgba8", {"rgba8", "rgba16f", "rgba32f"})}),
+        Param::object("image", "the picture that is rendered",
+                      {Param::integer("width", "columns", "px", 512, 1, 4096),
+                       Param::integer("height", "rows", "px", 512, 1, 4096),
+                       Param::color("background", "color behind everything", {0, 0, 0}),
+                       Param::choice("format", "format of the image into which the methods blend",
+                                     to_string(ImageSpec().format), format_names())}),
         any("scene", "an object with the type of the scene and its parameters", nullptr),
         any("methods",
             fmt::format("an array of 1 to {} method ids, or objects with id, label and parameters", max_methods),
             nullptr, max_methods),
-        any("reference", "the method that the others are held against for differences", "exact"),
-        optional_text("baseline", "label or id of the method that speed is held against; b2f, else the first"),
+        any("reference", "the method with whose picture the others are compared", "exact"),
+        optional_text("baseline",
+                      "label or id of the method with which times are compared; by default b2f, or the first method if "
+                      "there is no b2f"),
         Param::object("timing", "how long each method is timed",
                       {Param::integer("warmup", "frames before timing", "frames", 1, 1, 100),
                        Param::integer("rounds", "timed frames of each method", "frames", 10, 1, 1000),
                        Param::number("max_seconds", "no round begins after this", "s", 60, 0.001, 3600)}),
         optional_text("suite", "id of the published measurement that this one repeats, see GET /suites"),
         any("sweep",
-            "an array of axes, each {pointer, values} or {points}: the comparison is made at every point of their "
+            "an array of axes, each {pointer, values} or {points}; the comparison is made at every point of their "
             "Cartesian product",
             json::array(), max_sweeps),
-        Param::list("checks", "what must hold for the report to pass", check_fields(), 0, 256),
+        Param::list("checks", "conditions for the report to pass", check_fields(), 0, 256),
     };
 }
 
-PixelFormat pixel_format(const std::string& name) {
-    if (name == "rgba8") return PixelFormat::rgba8;
-    return name == "rgba16f" ? PixelFormat::rgba16f : PixelFormat::rgba32f;
-}
+namespace {
 
 class SpecReader {
   public:
-    /// `known_scene`: a spec whose scene was read already and is the one of this document; null for none.
+    /// `known_scene`: a spec with the same scene, which has already been read; null for none.
     explicit SpecReader(const AssetRule& rule, const Spec* known_scene = nullptr)
         : m_rule(rule), m_known_scene(known_scene) {}
 
@@ -145,7 +142,7 @@ class SpecReader {
         }
         for (const auto& [name, value] : tags.items()) {
             if (!value.is_string() || value.get_ref<const std::string&>().size() > max_text_bytes)
-                error("/tags/" + pointer_token(name),
+                error((json::json_pointer("/tags") / name).to_string(),
                       fmt::format("must be a text of at most {} bytes", max_text_bytes));
         }
     }
@@ -154,7 +151,7 @@ class SpecReader {
         out.width_px = image["width"];
         out.height_px = image["height"];
         out.background = image["background"].get<std::array<float, 3>>();
-        out.format = pixel_format(image["format"]);
+        out.format = pixel_format_named(image["format"]);
     }
 
     void read_scene(const json& document, Spec& spec) {
@@ -238,7 +235,7 @@ class SpecReader {
         for (const MethodSpec& method : spec.methods) spec.normalised["methods"].push_back(method_json(method));
     }
 
-    /// Labels that are given must be unique; the others are the id, numbered where that is taken.
+    /// Given labels must be unique; the others are the id, numbered if it is taken.
     void set_labels(std::vector<MethodSpec>& methods) {
         std::vector<std::string> taken;
         const auto is_taken = [&](const std::string& label) { return std::ranges::find(taken, label) != taken.end(); };
@@ -258,13 +255,13 @@ class SpecReader {
         }
     }
 
-    /// The label of the method that `name` means: a label, or the id of one. "" after adding an error.
+    /// The label of the method whose label or id is `name`. "" after adding an error.
     std::string resolve_method(const Spec& spec, const std::string& name, const std::string& pointer) {
         for (const MethodSpec& method : spec.methods)
             if (method.label == name) return method.label;
         for (const MethodSpec& method : spec.methods)
             if (method.id == lower_case(name)) return method.label;
-        error(pointer, fmt::format("\"{}\" is neither label nor id of one of the methods", name));
+        error(pointer, fmt::format("\"{}\" is neither the label nor the id of one of the methods", name));
         return "";
     }
 
@@ -289,8 +286,8 @@ class SpecReader {
         }
     }
 
-    /// Every point is read as a spec of its own, so that a value is refused where it stands in the sweep. A scene in
-    /// which nothing is swept is the same at all points and is not read again.
+    /// Every point is read as a separate spec, so that the error for a wrong value points into the sweep. If the sweep
+    /// does not change the scene, it is read only once.
     void read_points(Spec& spec) {
         const json& sweep = spec.normalised["sweep"];
         spec.points = read_sweep(sweep, spec.normalised, m_errors);
@@ -301,14 +298,14 @@ class SpecReader {
         document.erase("checks");
         if (!scene_is_swept) document["scene"] = nullptr;
         if (json_weight(document) * spec.points.size() > max_sweep_weight)
-            return error("/sweep", "must have fewer points for a spec that is so large");
+            return error("/sweep", "must have fewer points, as the spec is so large");
         for (const SweepPoint& point : spec.points) {
             try {
                 SpecReader(m_rule, scene_is_swept ? nullptr : &spec).read(at_point(document, point));
             } catch (const SpecError& wrong) {
                 add_errors_at(point, wrong, sweep);
             }
-            // Enough to go by, and a limit to the work that one spec can make.
+            // Enough errors to be useful, and a limit to the work that one spec can cause.
             if (m_errors.size() >= max_told_errors) return;
         }
     }
@@ -337,7 +334,7 @@ class SpecReader {
             if (check["min"].is_null() && check["max"].is_null()) error(pointer, "needs a min or a max");
             check["method"] = resolve_method(spec, check["method"], pointer + "/method");
             if (!matches_any(spec.points, check["at"]))
-                error(pointer + "/at", "must be values by pointer that a point of the sweep has");
+                error(pointer + "/at", "must be an object of values by JSON pointer that a point of the sweep has");
             spec.checks.push_back({check["metric"], check["method"], check["min"], check["max"], check["at"]});
         }
     }
@@ -354,18 +351,6 @@ class SpecReader {
 
 }  // namespace
 
-std::string to_string(PixelFormat format) {
-    switch (format) {
-        case PixelFormat::rgba8:
-            return "rgba8";
-        case PixelFormat::rgba16f:
-            return "rgba16f";
-        case PixelFormat::rgba32f:
-            return "rgba32f";
-    }
-    throw std::logic_error("unknown pixel format");
-}
-
 Spec parse_spec(const json& document, const AssetRule& rule) {
     return SpecReader(rule).read(document);
 }
@@ -380,46 +365,6 @@ Spec parse_spec_text(const std::string& text) {
 
 Spec spec_at(const Spec& spec, const SweepPoint& point) {
     return parse_spec(at_point(spec.normalised, point));
-}
-
-json spec_schema() {
-    json schema = schema_of(spec_fields());
-    schema["required"] = {"scene", "methods"};
-    json scenes = json::array(), methods = json::array();
-    for (const SceneInfo& scene : all_scenes()) {
-        json one = schema_of(scene.all_parameters());
-        one["title"] = scene.name;
-        one["description"] = scene.summary;
-        one["properties"]["type"] = {{"const", scene.id}};
-        one["required"].push_back("type");
-        scenes.push_back(one);
-    }
-    json ids = json::array();
-    for (const MethodInfo& method : all_methods()) {
-        ids.push_back(method.id);
-        json one = schema_of(method.parameters);
-        one["title"] = method.name;
-        one["description"] = method.summary;
-        one["properties"]["id"] = {{"const", method.id}};
-        one["properties"]["label"] = {{"type", "string"}, {"minLength", 1}, {"maxLength", max_text_bytes}};
-        one["required"].push_back("id");
-        methods.push_back(one);
-    }
-    methods.push_back({{"enum", ids}});
-    json& properties = schema["properties"];
-    properties["tags"]["type"] = "object";
-    properties["tags"]["maxProperties"] = max_tags;
-    properties["sweep"].update({{"type", "array"}, {"maxItems", max_sweeps}});
-    properties["tags"]["additionalProperties"] = {{"type", "string"}, {"maxLength", max_text_bytes}};
-    properties["scene"]["oneOf"] = scenes;
-    properties["reference"]["oneOf"] = methods;
-    properties["methods"].update(
-        {{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods}, {"items", {{"oneOf", methods}}}});
-    return schema;
-}
-
-json describe_spec_fields() {
-    return to_json(spec_fields());
 }
 
 }  // namespace sheer

@@ -1,28 +1,16 @@
 #pragma once
-#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
+#include "renderer/image/image_spec.h"
 #include "renderer/spec/sweep.h"
 
 namespace sheer {
 
-/// What the methods blend into.
-enum class PixelFormat { rgba8, rgba16f, rgba32f };
-/// As a spec names it.
-std::string to_string(PixelFormat format);
-
-struct ImageSpec {
-    int width_px = 512;
-    int height_px = 512;
-    std::array<float, 3> background{};  ///< 0..1
-    PixelFormat format = PixelFormat::rgba8;
-};
-
-/// A method with its parameters, normalised: every parameter is there.
+/// A method with its normalised parameters: every parameter is present.
 struct MethodSpec {
     std::string id;
     std::string label;  ///< unique in the spec
@@ -32,17 +20,17 @@ struct MethodSpec {
 struct TimingSpec {
     int warmup = 1;
     int rounds = 10;
-    double max_seconds = 60;  ///< no new round is begun after this
+    double max_seconds = 60;  ///< no new round begins after this
 };
 
 struct CheckSpec {
     std::string metric;  ///< "flip.mean", "rmse", "speedup", ...
     std::string method;  ///< label
     nlohmann::json min = nullptr, max = nullptr;
-    SweepPoint at;  ///< holds only where a point of the sweep has these values; {}: everywhere
+    SweepPoint at;  ///< applies only to points of the sweep that have these values; {}: to all
 };
 
-/// A comparison to make, valid and with defaults filled in.
+/// A valid comparison to make, with defaults filled in.
 struct Spec {
     std::string title;
     ImageSpec image;
@@ -53,36 +41,38 @@ struct Spec {
     std::string baseline;  ///< label of one of `methods`
     TimingSpec timing;
     std::vector<CheckSpec> checks;
-    std::string suite;               ///< id of the suite that it measures, or ""
+    std::string suite;               ///< id of the suite that it repeats, or ""
     std::vector<SweepPoint> points;  ///< at least one
-    nlohmann::json normalised;       ///< the whole as JSON; parsing it gives the same spec
+    nlohmann::json normalised;       ///< the whole spec as JSON; parsing it gives the same spec
 
-    /// SHA-256 is over this text: keys sorted, no spaces.
+    /// The text of which the SHA-256 is taken: keys sorted, no spaces.
     std::string canonical_text() const { return normalised.dump(); }
 };
 
 struct AssetReference;
-/// What is wrong with a file that a spec refers to, as a sentence on its field; "" for nothing.
+/// What is wrong with a file that a spec refers to, as a sentence about its field; "" if nothing is.
 using AssetRule = std::function<std::string(const AssetReference& reference)>;
 
-/// Throws SpecError with every wrong field, those that `rule` objects to among them.
+/// Throws SpecError with every wrong field, including those that `rule` rejects.
 Spec parse_spec(const nlohmann::json& document, const AssetRule& rule = {});
-/// The same from text; text that is not JSON gives one error at pointer "" that says where it breaks, an object that
-/// has a key twice one at that key.
+/// The same from text. Text that is not JSON gives one error, at pointer "", with the position; an object that has a
+/// key twice gives one at that key.
 Spec parse_spec_text(const std::string& text);
 
 /// The spec of one point of its sweep, without sweep and checks.
 Spec spec_at(const Spec& spec, const SweepPoint& point);
 
-/// JSON schema (draft 7) of a spec, made from the descriptions of methods and scenes.
+/// JSON schema of a spec, for draft 7 and all later ones, made from the descriptions of methods and scenes.
 nlohmann::json spec_schema();
-/// The fields of a spec as to_json() gives them. What scene, methods and reference hold is described with these.
+/// The schema of Spec::normalised.
+nlohmann::json normalised_spec_schema();
+/// The fields of a spec as to_json() gives them. The contents of scene, methods and reference are described separately.
 nlohmann::json describe_spec_fields();
 
-/// What `GET /methods` and `GET /scenes` answer: an array of self-descriptions with `parameters`.
+/// What `GET /methods` and `GET /scenes` answer: arrays of catalog::Method and catalog::Scene.
 nlohmann::json describe_methods();
 nlohmann::json describe_scenes();
-/// Every metric and its fields, for the page's captions.
+/// Every metric and its fields: an array of catalog::Metric.
 nlohmann::json describe_metrics();
 
 }  // namespace sheer

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "embedded_suites.h"
-#include "renderer/spec/names.h"
+#include "renderer/core/names.h"
 
 namespace sheer {
 
@@ -41,19 +41,6 @@ json suite_spec(const Suite& suite, double scale) {
     for (const char* side : {"width", "height"})
         spec["image"][side] = std::max(1.0, std::round(spec["image"][side].get<double>() * scale));
     return spec;
-}
-
-json describe_suites() {
-    json all = json::array();
-    for (const Suite& suite : all_suites())
-        all.push_back({{"id", suite.id},
-                       {"title", suite.title},
-                       {"source", suite.source},
-                       {"device", suite.device},
-                       {"spec", suite.spec},
-                       {"published_count", suite.published.size()},
-                       {"trend_count", suite.trends.size()}});
-    return all;
 }
 
 }  // namespace sheer

@@ -1,6 +1,7 @@
 #include "renderer/spec/sweep.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <set>
@@ -11,19 +12,19 @@ using nlohmann::json;
 
 namespace {
 
-// Of all points together, which are kept: some tens of megabytes.
+// Limit for all points together, which are kept in memory: some tens of megabytes.
 constexpr std::size_t max_points_weight = 500'000;
 
 constexpr const char* shape = "must be an object with a pointer and an array of values, or with an array of points";
 
-/// Where a sweep may reach; what is no parameter of a rendering is not to be swept.
+/// What a sweep may change: only parameters of the rendering.
 bool is_parameter(const std::string& pointer) {
     if (pointer == "/scene/type" || pointer.ends_with("/id") || pointer.ends_with("/label")) return false;
     return pointer.starts_with("/scene/") || pointer.starts_with("/image/") || pointer.starts_with("/methods/");
 }
 
-/// The one of `fields` that is `field`, holds it or is a part of it; "" for none. A pointer that is well-formed spells
-/// each field in one way only.
+/// The one of `fields` that equals `field`, contains it or is a part of it; "" for none. Well-formed pointers have one
+/// spelling for each field.
 std::string overlapping(const std::set<std::string>& fields, const std::string& field) {
     for (std::size_t end = field.find('/', 1); end != std::string::npos; end = field.find('/', end + 1))
         if (fields.contains(field.substr(0, end))) return field.substr(0, end);
@@ -57,7 +58,7 @@ class SweepReader {
                 return {json::object()};
             }
             if (json_weight_of(points) * axis.size() + json_weight_of(axis) * points.size() > max_points_weight) {
-                error("/sweep", "must not repeat values that are so large at so many points");
+                error("/sweep", "must not repeat such large values at so many points");
                 return {json::object()};
             }
             points = product(points, axis);
@@ -81,7 +82,7 @@ class SweepReader {
         return all;
     }
 
-    /// Never empty, so that one wrong axis does not hide the others' errors.
+    /// Never empty, so that a wrong axis does not hide the others' errors.
     std::vector<SweepPoint> read_axis(const json& axis, const std::string& pointer) {
         std::vector<SweepPoint> points;
         const bool single = axis.is_object() && axis.size() == 2 && axis.contains("pointer") &&
@@ -140,8 +141,8 @@ class SweepReader {
 
     const json& m_document;
     std::vector<FieldError>& m_errors;
-    std::set<std::string> m_taken;       ///< by the axes before
-    std::set<std::string> m_taken_here;  ///< by this axis, whose points may set one field each
+    std::set<std::string> m_taken;       ///< by the previous axes
+    std::set<std::string> m_taken_here;  ///< by this axis, each of whose points may set the same field
 };
 
 }  // namespace

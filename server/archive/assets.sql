@@ -1,5 +1,5 @@
--- From version 1 of the archive to version 2: uploaded files that specs refer to. Their bytes are files of their own
--- folder, named by their SHA-256; no report keeps or removes them.
+-- From version 1 of the archive to version 2: uploaded files that specs refer to. Their bytes are files in a folder of
+-- their own, named by their SHA-256; reports neither keep nor remove them.
 CREATE TABLE assets (
     sha256 TEXT PRIMARY KEY NOT NULL,
     type TEXT NOT NULL,

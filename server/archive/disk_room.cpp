@@ -33,22 +33,20 @@ std::uint64_t least_free_inodes(const DiskSpace& space) {
 
 std::string lack_of_room(const DiskSpace& space) {
     if (space.free_bytes < least_free_bytes(space))
-        return fmt::format("the archive's disk has {} KiB left and needs {} KiB", space.free_bytes / kibibyte,
+        return fmt::format("the archive's disk has {} KiB left but needs {} KiB", space.free_bytes / kibibyte,
                            least_free_bytes(space) / kibibyte);
     if (space.total_inodes > 0 && space.free_inodes < least_free_inodes(space))
-        return fmt::format("the archive's disk has inodes for {} more files and needs {}", space.free_inodes,
+        return fmt::format("the archive's disk has inodes for {} more files but needs {}", space.free_inodes,
                            least_free_inodes(space));
     return "";
 }
-
-DiskRoom::DiskRoom(fs::path folder) : m_folder(std::move(folder)), m_reserve(m_folder / "reserve") {}
 
 std::string DiskRoom::lack() const {
     return lack_of_room(space());
 }
 
 bool DiskRoom::give_up_reserve() {
-    if (unlink(m_reserve.c_str()) != 0) return false;
+    if (unlink(m_folder.reserve().c_str()) != 0) return false;
     spdlog::warn("the archive's disk is full: its reserve is given up");
     return true;
 }
@@ -57,19 +55,19 @@ void DiskRoom::restore_reserve() {
     std::error_code none;
     const DiskSpace now = space();
     const std::uint64_t wanted = reserve_bytes(now);
-    if (fs::file_size(m_reserve, none) >= wanted && !none) return;
+    if (fs::file_size(m_folder.reserve(), none) >= wanted && !none) return;
     if (now.free_bytes < least_free_bytes(now) + wanted) return;
-    const int file = open(m_reserve.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    const int file = open(m_folder.reserve().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     if (file < 0) return;
     const bool made = posix_fallocate(file, 0, static_cast<off_t>(wanted)) == 0;
     close(file);
-    if (!made) unlink(m_reserve.c_str());
+    if (!made) unlink(m_folder.reserve().c_str());
 }
 
 DiskSpace DiskRoom::space() const {
     struct statvfs status {};
-    // A disk that does not say is taken to have room: writing will tell.
-    if (statvfs(m_folder.c_str(), &status) != 0) return {};
+    // A disk that does not report its space is assumed to have room: writing will show.
+    if (statvfs(m_folder.root.c_str(), &status) != 0) return {};
     return {.total_bytes = status.f_blocks * status.f_frsize,
             .free_bytes = status.f_bavail * status.f_frsize,
             .total_inodes = status.f_files,

@@ -1,4 +1,4 @@
--- From version 2 of the archive to version 3: what jobs that did not come through remember.
+-- From version 2 of the archive to version 3: what is recorded about attempts that failed.
 ALTER TABLE reports ADD COLUMN setbacks INTEGER NOT NULL DEFAULT 0; -- how often the disk refused it
 ALTER TABLE reports ADD COLUMN not_before_ms INTEGER NOT NULL DEFAULT 0; -- when a queued job is due
 ALTER TABLE reports ADD COLUMN lacks_room INTEGER NOT NULL DEFAULT 0; -- whether it waits for room on the disk

@@ -1,7 +1,7 @@
 #include <spdlog/spdlog.h>
 
-#include "server/archive/sqlite_guard.h"
-#include "server/archive/sqlite_store.h"
+#include "server/archive/sqlite_reports.h"
+#include "server/archive/sqlite_steps.h"
 
 namespace sheer {
 
@@ -33,7 +33,6 @@ Query query_of(const ListFilter& filter) {
     Query query;
     if (filter.status) query.add("status = ?", {std::string(status_text(*filter.status))});
     if (!filter.scene.empty()) query.add("scene = ?", {filter.scene});
-    if (!filter.before_id.empty()) query.add("id < ?", {filter.before_id});
     if (!filter.method.empty())
         query.add("EXISTS (SELECT 1 FROM report_methods m WHERE m.report_id = id AND m.method = lower(?))",
                   {filter.method});
@@ -66,8 +65,7 @@ ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
     summary.title = row.getColumn(5).getString();
     summary.scene = row.getColumn(6).getString();
     summary.spec_sha256 = row.getColumn(7).getString();
-    if (!row.getColumn(8).isNull())
-        summary.error = JobError{row.getColumn(8).getString(), row.getColumn(9).getString()};
+    summary.error = error_of(row.getColumn(8), row.getColumn(9));
     summary.verdict = row.getColumn(10).getString();
     if (!row.getColumn(11).isNull()) {
         summary.preview = json::parse(row.getColumn(11).getString(), nullptr, false);
@@ -88,12 +86,14 @@ ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
 
 }  // namespace
 
-ReportPage SqliteStore::list(const ListFilter& filter) {
-    const Query query = query_of(filter);
-    return guarded(m_mutex, [&] {
-        // One transaction, so that the lines and their methods and tags are of the same moment.
-        SQLite::Transaction transaction(m_database, SQLite::TransactionBehavior::DEFERRED);
-        SQLite::Statement rows(m_database,
+ReportPage SqliteReports::list(const ListFilter& filter) {
+    const Query of_all = query_of(filter);
+    Query query = of_all;
+    if (!filter.before_id.empty()) query.add("id < ?", {filter.before_id});
+    return m_archive.read([&](SQLite::Database& database) {
+        // One transaction, so that the lines, their methods and their tags are consistent.
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::DEFERRED);
+        SQLite::Statement rows(database,
                                "SELECT id, status, progress, created_ms, finished_ms, title, scene, spec_sha256, "
                                "error_title, error_detail, verdict, preview FROM reports WHERE " +
                                    query.where + " ORDER BY id DESC LIMIT ?");
@@ -101,10 +101,14 @@ ReportPage SqliteStore::list(const ListFilter& filter) {
         for (const std::string& value : query.values) rows.bind(++index, value);
         rows.bind(++index, filter.limit + 1);
         ReportPage page;
+        SQLite::Statement count(database, "SELECT COUNT(*) FROM reports WHERE " + of_all.where);
+        int place = 0;
+        for (const std::string& value : of_all.values) count.bind(++place, value);
+        if (count.executeStep()) page.count = count.getColumn(0).getInt64();
         while (rows.executeStep()) {
             page.more = static_cast<int>(page.reports.size()) == filter.limit;
             if (page.more) break;
-            page.reports.push_back(summary_of(m_database, rows));
+            page.reports.push_back(summary_of(database, rows));
         }
         return page;
     });

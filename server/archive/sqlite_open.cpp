@@ -1,12 +1,13 @@
 #include "server/archive/sqlite_open.h"
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 
-#include "server/jobs/store.h"
+#include "server/jobs/store_errors.h"
 
 namespace sheer {
 
@@ -17,10 +18,6 @@ namespace {
 constexpr int busy_timeout_ms = 10'000;
 constexpr std::uintmax_t largest_checked_bytes = std::uintmax_t{16} << 20;
 constexpr std::size_t header_bytes = 100;
-
-fs::path database_in(const fs::path& folder) {
-    return folder / "archive.sqlite";
-}
 
 std::uintmax_t size_or_zero(const fs::path& file) {
     std::error_code none;
@@ -40,7 +37,7 @@ std::uint32_t big_endian(const char* bytes, int count) {
     return value;
 }
 
-/// How long the file must be by its own header (the SQLite file format, 1.3); 0 if it is none.
+/// How long the file must be according to its header (the SQLite file format, 1.3); 0 if it is not a database.
 std::uintmax_t size_by_header(const fs::path& file) {
     std::array<char, header_bytes> header{};
     std::ifstream(file, std::ios::binary).read(header.data(), header.size());
@@ -49,28 +46,28 @@ std::uintmax_t size_by_header(const fs::path& file) {
     return std::uintmax_t{page_bytes == 1 ? 65536 : page_bytes} * big_endian(&header[28], 4);
 }
 
-/// What the files say before SQLite opens them: it takes an empty file for a new database, and finds out late that one
-/// is cut.
-void check_files(const fs::path& folder) {
-    const fs::path file = database_in(folder), log = file.string() + "-wal";
+/// Checks the files before SQLite opens them: it takes an empty file for a new database, and notices late that one is
+/// truncated.
+void check_files(const DataFolder& folder) {
+    const fs::path file = folder.database(), log = file.string() + "-wal";
     const std::uintmax_t size = size_or_zero(file), log_size = size_or_zero(log);
     if (size == 0) {
-        const bool orphaned = log_size > 0 || holds_files(folder / "blobs") || holds_files(folder / "assets");
+        const bool orphaned = log_size > 0 || holds_files(folder.blobs()) || holds_files(folder.assets());
         if (!orphaned) return;
         throw StoreError(
             fmt::format("{} is {}, but {} holds the files of an archive; put the database back, or choose "
                         "another folder",
-                        file.string(), fs::exists(file) ? "empty" : "missing", folder.string()));
+                        file.string(), fs::exists(file) ? "empty" : "missing", folder.root.string()));
     }
     const std::uintmax_t wanted = size_by_header(file);
     if (wanted == 0) throw StoreError(fmt::format("{} is not a SQLite database", file.string()));
-    // With a log that was not carried over yet, the file may be shorter than it will be.
+    // If the log has not been written to the database yet, the file may be shorter.
     if (size < wanted && log_size == 0)
-        throw StoreError(fmt::format("{} is cut: it has {} of {} bytes", file.string(), size, wanted));
+        throw StoreError(fmt::format("{} is truncated: it has {} of {} bytes", file.string(), size, wanted));
 }
 
-/// A database is ours by its application id; ours of before there was one are known by their tables.
-void check_identity(SQLite::Database& database, const fs::path& folder) {
+/// A database of ours has our application id; older ones, from before there was an id, are recognized by their tables.
+void check_identity(SQLite::Database& database, const DataFolder& folder) {
     const std::int64_t id = database.execAndGet("PRAGMA application_id").getInt64();
     if (id == archive_application_id) return;
     const std::int64_t version = database.execAndGet("PRAGMA user_version").getInt64();
@@ -81,21 +78,21 @@ void check_identity(SQLite::Database& database, const fs::path& folder) {
                              "'report_methods', 'report_tags', 'report_blobs', 'blobs', 'health')")
                          .getInt();
     if (id == 0 && version > 0 && ours == 6) return;
-    const fs::path file = database_in(folder);
+    const fs::path file = folder.database();
     if (id != 0 || version != 0 || tables != 0)
         throw StoreError(fmt::format("{} is a database of another program", file.string()));
-    if (holds_files(folder / "blobs") || holds_files(folder / "assets"))
+    if (holds_files(folder.blobs()) || holds_files(folder.assets()))
         throw StoreError(
-            fmt::format("{} has no tables, but {} holds the files of an archive", file.string(), folder.string()));
+            fmt::format("{} has no tables, but {} holds the files of an archive", file.string(), folder.root.string()));
 }
 
 }  // namespace
 
-SQLite::Database open_archive(const fs::path& folder) {
+SQLite::Database open_archive(const DataFolder& folder) {
     try {
-        fs::create_directories(folder);
+        fs::create_directories(folder.root);
         check_files(folder);
-        SQLite::Database database(database_in(folder).string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+        SQLite::Database database(folder.database().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                                   busy_timeout_ms);
         check_identity(database, folder);
         database.exec("PRAGMA journal_mode = WAL");
@@ -108,16 +105,22 @@ SQLite::Database open_archive(const fs::path& folder) {
     } catch (const StoreError&) {
         throw;
     } catch (const SQLite::Exception& error) {
-        const std::string text = fmt::format("cannot open {}: {}", database_in(folder).string(), error.what());
+        const std::string text = fmt::format("cannot open {}: {}", folder.database().string(), error.what());
         if (error.getErrorCode() == SQLITE_FULL) throw StoreFull(text);
         throw StoreError(text);
     } catch (const std::exception& error) {
-        throw StoreError(fmt::format("cannot open the archive in {}: {}", folder.string(), error.what()));
+        throw StoreError(fmt::format("cannot open the archive in {}: {}", folder.root.string(), error.what()));
     }
 }
 
-void check_archive(SQLite::Database& database, const fs::path& folder) {
-    const fs::path file = database_in(folder);
+SQLite::Database open_reader(const DataFolder& folder) {
+    SQLite::Database database = open_archive(folder);
+    database.exec("PRAGMA query_only = ON");
+    return database;
+}
+
+void check_archive(SQLite::Database& database, const DataFolder& folder) {
+    const fs::path file = folder.database();
     if (size_or_zero(file) > largest_checked_bytes) return;
     std::string found;
     try {

@@ -1,21 +1,21 @@
 #pragma once
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <filesystem>
+#include "server/archive/data_folder.h"
 
 namespace sheer {
 
-/// What a database of ours says of itself in its header: "Shee" in ASCII. `file` and others can tell it by that.
+/// The application id in the header of our databases: "Shee" in ASCII. `file` and other tools recognize them by it.
 inline constexpr int archive_application_id = 0x53686565;
 
-/// Opens FOLDER/archive.sqlite, and makes it where there is nothing yet. Throws StoreError that names the file and
-/// leaves it as it is
-///   where it is missing, empty or cut though FOLDER holds pictures or uploads: an archive that begins anew would hide
-///   them and lose them,
-///   where it is no SQLite database, or one of another program.
-SQLite::Database open_archive(const std::filesystem::path& folder);
+/// Opens the folder's database, or makes it in an empty folder. Throws a StoreError that names the file, and does not
+/// change it, if it is missing, empty or truncated although the folder holds pictures or uploads (a new archive would
+/// hide and lose them), and if it is not a SQLite database or belongs to another program.
+SQLite::Database open_archive(const DataFolder& folder);
+/// The same for a connection that never writes.
+SQLite::Database open_reader(const DataFolder& folder);
 
-/// Throws StoreError if SQLite finds the database damaged. Reads all of it, so only one that is small is looked at.
-void check_archive(SQLite::Database& database, const std::filesystem::path& folder);
+/// Throws StoreError if SQLite finds the database damaged. It reads all of it, so only a small database is checked.
+void check_archive(SQLite::Database& database, const DataFolder& folder);
 
 }  // namespace sheer

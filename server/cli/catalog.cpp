@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "renderer/gl/context.h"
+#include "renderer/spec/catalog.h"
 #include "renderer/spec/spec.h"
 #include "renderer/spec/suites.h"
 #include "server/cli/commands.h"
@@ -34,23 +35,33 @@ std::string entry(const json& info, const std::vector<std::pair<std::string, std
     std::string text = fmt::format("{}  {}\n", info["id"].get<std::string>(), info["summary"].get<std::string>());
     for (const auto& [caption, key] : captions)
         text += fmt::format("    {:<9}{}\n", caption, info[key].get<std::string>());
-    for (const json& parameter : info["parameters"]) text += parameter_line(parameter, 4);
+    for (const json& parameter : info.value("parameters", json::array())) text += parameter_line(parameter, 4);
     return text;
 }
 
+/// A value of a metric, with its name in checks.
+std::string metric_field_line(const json& field) {
+    const auto unit = field["unit"].get<std::string>();
+    return fmt::format("    {} ({}{}{})  {}\n", field["full_name"].get<std::string>(),
+                       field["range"].get<std::string>(), unit.empty() ? "" : " ", unit,
+                       field["summary"].get<std::string>());
+}
+
+std::string metric_entry(const json& metric) {
+    std::string text = entry(metric, {{"source", "source"}, {"good for", "good_for"}});
+    for (const json& field : metric["fields"]) text += metric_field_line(field);
+    return text + "\n";
+}
+
 json describe_devices() {
-    json all = json::array();
+    std::vector<catalog::ListedDevice> all;
     for (const gl::ListedDevice& device : gl::list_devices()) {
-        json one = gl::to_json(device.info);
-        one["error"] = device.error ? json(*device.error) : json();
-        json workarounds = json::array();
+        all.push_back({device.info, device.error, {}});
         for (const gl::Workaround& workaround : gl::known_workarounds())
             if (!device.error && workaround.applies(device.info))
-                workarounds.push_back({{"name", workaround.name}, {"paragraph", workaround.paragraph}});
-        one["workarounds"] = workarounds;
-        all.push_back(one);
+                all.back().workarounds.push_back({std::string(workaround.name), std::string(workaround.paragraph)});
     }
-    return all;
+    return to_document(all);
 }
 
 std::string device_line(const json& device) {
@@ -92,12 +103,13 @@ void add_catalog(CLI::App& app, int& exit_code) {
     add_list(app, exit_code, "scenes", "The scenes and their parameters", describe_scenes, [](const json& info) {
         return entry(info, {{"source", "source"}}) + "\n";
     });
+    add_list(app, exit_code, "metrics", "The metrics and their values", describe_metrics, metric_entry);
     add_list(app, exit_code, "suites", "Published measurements that can be repeated", describe_suites,
              [](const json& suite) {
                  return fmt::format("{:<15} {} ({})\n", suite["id"].get<std::string>(),
                                     suite["title"].get<std::string>(), suite["source"].get<std::string>());
              });
-    add_list(app, exit_code, "devices", "What can be rendered on here", describe_devices, device_line);
+    add_list(app, exit_code, "devices", "The devices that can render here", describe_devices, device_line);
 }
 
 }  // namespace sheer::cli

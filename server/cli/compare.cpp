@@ -1,4 +1,4 @@
-#include "renderer/compare.h"
+#include "renderer/compare/compare.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,11 @@
 
 #include "renderer/assets/file_assets.h"
 #include "renderer/command/signal_watch.h"
+#include "renderer/core/clock.h"
+#include "renderer/core/files.h"
 #include "renderer/files/blob_sink.h"
 #include "renderer/files/html.h"
+#include "renderer/params/json_text.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
 #include "server/cli/junit_file.h"
@@ -20,7 +23,6 @@ namespace sheer::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 struct CompareArguments {
     Source source;
@@ -28,13 +30,13 @@ struct CompareArguments {
     gl::ContextRequest context;
 };
 
-void write_report(const json& report, const fs::path& folder) {
-    const auto read_picture = [&](const json& image) { return read_text(folder / image.at("url").get<std::string>()); };
-    write_text(folder / "report.html", report_html(report, read_picture));
-    write_text(folder / "report.json", report.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+void write_report(const report::Report& report, const fs::path& folder) {
+    const auto read_picture = [&](const report::Picture& picture) { return read_file(folder / picture.url); };
+    write_file(folder / "report.html", report_html(report, read_picture));
+    write_file(folder / "report.json", json_page(to_document(report)));
 }
 
-/// A comparison from its spec to what is left of it. However it ends, what is finished is written.
+/// A comparison from its spec to its output. However it ends, finished parts are written.
 class Comparison {
   public:
     explicit Comparison(const CompareArguments& options)
@@ -97,33 +99,33 @@ class Comparison {
             });
     }
 
-    // The following are called with m_busy held.
+    // The following functions are called with m_busy locked.
 
     void finish() {
-        json report = m_maker->finish();
+        report::Report report = m_maker->finish();
         m_maker.reset();
         keep(std::move(report), true);
         m_junit.write(m_report);
     }
 
-    void keep(json report, bool complete) {
-        report["provenance"]["rerun"] = m_rerun;
-        if (!m_options.source.spec.empty()) report["provenance"]["spec"] = fs::absolute(m_options.source.spec).string();
+    void keep(report::Report report, bool complete) {
+        report.provenance.rerun = m_rerun;
+        if (!m_options.source.spec.empty()) report.provenance.spec = fs::absolute(m_options.source.spec).string();
         m_report = std::move(report);
         if (!m_folder) return;
         write_report(m_report, m_folder->partial());
         m_place = fs::absolute(m_folder->commit(complete)).lexically_normal();
     }
 
-    /// Writes what is finished as a report that says that it is not whole. Returns how many points it has.
-    std::size_t keep_finished(const std::string& status, const std::string& title, const std::string& detail) {
+    /// Writes the finished points as a report that says that it is incomplete. Returns how many points it has.
+    std::size_t keep_finished(report::Status status, const std::string& title, const std::string& detail) {
         const std::size_t points = m_maker ? m_maker->runs() : 0;
         if (points == 0) {
             m_junit.write_error(title, detail);
             if (m_folder) m_folder->discard();
             return 0;
         }
-        json report = m_maker->finish_early(status, title, detail);
+        report::Report report = m_maker->finish_early(status, title, detail);
         m_maker.reset();
         m_junit.write(report);
         keep(std::move(report), false);
@@ -140,18 +142,19 @@ class Comparison {
     void fail(const std::exception& error) {
         const bool is_callers = dynamic_cast<const SpecError*>(&error) || dynamic_cast<const UsageError*>(&error);
         try {
-            const std::size_t points = keep_finished(
-                "failed", is_callers ? "The comparison cannot be made" : "Rendering failed", error.what());
+            const std::size_t points =
+                keep_finished(report::Status::failed, is_callers ? "The comparison cannot be made" : "Rendering failed",
+                              error.what());
             if (points > 0) fmt::print(stderr, "sheer: {}\n", what_is_kept(points));
         } catch (const std::exception& more) {
-            fmt::print(stderr, "sheer: what was finished cannot be kept: {}\n", more.what());
+            fmt::print(stderr, "sheer: the finished points cannot be saved: {}\n", more.what());
         }
     }
 
     void end_by(int signal) {
         clear_progress_line();
         const std::string detail = fmt::format("it was ended by {}", signal_name(signal));
-        const std::size_t points = keep_finished("cancelled", "Interrupted", detail);
+        const std::size_t points = keep_finished(report::Status::cancelled, "Interrupted", detail);
         std::fflush(stdout);
         fmt::print(stderr, "sheer: {}; {}\n", detail, what_is_kept(points));
     }
@@ -161,14 +164,14 @@ class Comparison {
     const CompareArguments& m_options;
     const std::string m_created_at;
     const JunitFile m_junit;
-    std::mutex m_busy;  ///< guards all that follows while a SignalWatch lives
+    std::mutex m_busy;  ///< guards all following members while a SignalWatch exists
     std::optional<Spec> m_spec;
     std::optional<OutputFolder> m_folder;
     std::optional<FolderSink> m_sink;
     std::optional<ReportMaker> m_maker;
     std::string m_rerun;
-    json m_report;
-    fs::path m_place;  ///< the folder that the report is in; empty without --out
+    report::Report m_report;
+    fs::path m_place;  ///< the folder of the report; empty without --out
 };
 
 }  // namespace

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include "renderer/command/signal_watch.h"
+#include "renderer/core/files.h"
 #include "renderer/files/blob_sink.h"
+#include "renderer/files/report_document.h"
+#include "renderer/params/json_text.h"
 #include "server/cli/commands.h"
 #include "server/cli/output_folder.h"
 
@@ -15,40 +18,44 @@ namespace {
 
 struct DiffArguments {
     std::string a, b, out;
+    std::vector<std::string> allow;
     bool as_json = false;
 };
 
-/// A report.json and the folder that its pictures are in.
+/// A report.json and the folder with its pictures.
 class ReportFile {
   public:
-    /// `path` is the file, or the folder that holds it. Throws UsageError if it cannot be read.
+    /// `path` is the file, or the folder that contains it. Throws UsageError if it cannot be read or is not a report.
     explicit ReportFile(const std::filesystem::path& path)
         : m_file(std::filesystem::is_directory(path) ? path / "report.json" : path) {
         try {
-            m_report = json::parse(read_text(m_file));
+            m_report = read_report(json::parse(read_file(m_file)));
+        } catch (const DocumentError& wrong) {
+            throw UsageError(fmt::format("{} is not a report: {}", m_file.string(), wrong.what()));
         } catch (const json::exception&) {
             throw UsageError(m_file.string() + " is not JSON");
         } catch (const std::exception& error) {
             throw UsageError(error.what());
         }
-        if (!m_report.is_object() || !m_report.contains("runs") || !m_report.contains("spec"))
-            throw UsageError(m_file.string() + " is not a report");
     }
 
     DiffSide side() const {
-        return {m_report, [this](const json& image) {
-                    return read_text(m_file.parent_path() / image.at("url").get<std::string>());
-                }};
+        return {m_report,
+                [this](const report::Picture& picture) { return read_file(m_file.parent_path() / picture.url); }};
     }
 
   private:
     std::filesystem::path m_file;
-    json m_report;
+    report::Report m_report;
 };
 
-json diff(const ReportFile& a, const ReportFile& b, const DiffOptions& options) {
+diff::Diff compare_files(const ReportFile& a, const ReportFile& b, const DiffOptions& options) {
     try {
         return diff_reports(a.side(), b.side(), options);
+    } catch (const DiffConflict& conflict) {
+        if (conflict.allowable().empty()) throw;
+        throw UsageError(fmt::format("the reports cannot be compared:\n{}\nto compare them nevertheless: --allow {}",
+                                     conflict.what(), fmt::join(conflict.allowable(), " --allow ")));
     } catch (const SpecError&) {
         throw;
     } catch (const std::exception& error) {
@@ -72,15 +79,15 @@ class LockedSink : public BlobSink {
 };
 
 /// The diff, with diff.json and the FLIP maps in a folder.
-json diff_into(const std::string& out, const ReportFile& a, const ReportFile& b) {
-    OutputFolder folder(out, {"diff.json", {}, {}});
+diff::Diff diff_into(const DiffArguments& arguments, const ReportFile& a, const ReportFile& b) {
+    OutputFolder folder(arguments.out, {"diff.json", {}, {}});
     std::mutex busy;
     SignalWatch watch(busy, [&folder](int) { folder.discard(); });
     FolderSink maps(folder.partial());
     LockedSink sink(maps, busy);
-    json result = diff(a, b, {.pictures = &sink});
+    diff::Diff result = compare_files(a, b, {.pictures = &sink, .allow = arguments.allow});
     const std::lock_guard lock(busy);
-    write_text(folder.partial() / "diff.json", result.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+    write_file(folder.partial() / "diff.json", json_page(to_document(result)));
     folder.commit();
     watch.finish();
     return result;
@@ -88,19 +95,26 @@ json diff_into(const std::string& out, const ReportFile& a, const ReportFile& b)
 
 int run_diff(const DiffArguments& options) {
     const ReportFile a(options.a), b(options.b);
-    const json result = options.out.empty() ? diff(a, b, {}) : diff_into(options.out, a, b);
-    fmt::print("{}", options.as_json ? result.dump(2) + "\n" : diff_table(result));
+    const diff::Diff result =
+        options.out.empty() ? compare_files(a, b, {.allow = options.allow}) : diff_into(options, a, b);
+    fmt::print("{}", options.as_json ? json_page(to_document(result)) : diff_table(result));
     return is_worse(result) ? exit_check_failed : exit_ok;
 }
 
 }  // namespace
 
 void add_diff(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("diff", "Say what changed from one report to another one of the same spec");
+    CLI::App* command = app.add_subcommand("diff", "Show what changed between two reports of the same spec");
     auto options = std::make_shared<DiffArguments>();
-    command->add_option("a", options->a, "The report before: report.json, or the folder of compare --out")->required();
-    command->add_option("b", options->b, "The report after")->required();
+    command->add_option("a", options->a, "The earlier report: report.json, or the folder of compare --out")->required();
+    command->add_option("b", options->b, "The later report")->required();
     command->add_option("--out", options->out, "Folder for diff.json and the FLIP maps of the pictures that differ");
+    command
+        ->add_option("--allow", options->allow,
+                     "JSON pointer into the spec, such as /scene/shading/glsl: the field there may differ (repeatable)")
+        ->expected(1)
+        ->take_all()
+        ->type_name("POINTER");
     command->add_flag("--json", options->as_json, "Print JSON instead of a table");
     command->callback([options, &exit_code] { exit_code = guarded([&] { return run_diff(*options); }); });
 }

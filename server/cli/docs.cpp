@@ -1,10 +1,12 @@
-// The documents that are made from the source: written, or held against what is there.
+// Writes the documents that are made from the source, or compares them with the existing files.
 #include <fmt/format.h>
 
-#include "renderer/spec/documents.h"
+#include "renderer/core/files.h"
+#include "renderer/documents/documents.h"
 #include "server/cli/commands.h"
 #include "server/cli/rendering.h"
 #include "server/cli/service_config.h"
+#include "server/http/components.h"
 
 namespace sheer::cli {
 
@@ -18,22 +20,22 @@ struct DocsArguments {
 };
 
 bool is_up_to_date(const fs::path& path, const std::string& text) {
-    return fs::is_regular_file(path) && read_text(path) == text;
+    return fs::is_regular_file(path) && read_file(path) == text;
 }
 
 int run_docs(const DocsArguments& options) {
     const fs::path folder = options.folder;
-    const auto litmus = nlohmann::json::parse(read_text(folder / "tests/render/litmus.json"));
+    const auto read = [&folder](const std::string& path) { return read_file(folder / path); };
     int exit_code = exit_ok;
-    for (const Document& document : make_documents(service_config_fields(), litmus)) {
+    for (const Document& document : make_documents({service_config_fields(), http::component_schemas()}, read)) {
         const fs::path path = folder / document.path;
         if (is_up_to_date(path, document.text)) continue;
         if (options.check) {
-            fmt::print(stderr, "{} is out of date; ./dev docs makes it anew\n", document.path);
+            fmt::print(stderr, "{} is out of date; run ./dev docs\n", document.path);
             exit_code = exit_check_failed;
         } else {
             fs::create_directories(path.parent_path());
-            write_text(path, document.text);
+            write_file(path, document.text);
             fmt::print("{}\n", document.path);
         }
     }

@@ -3,9 +3,9 @@
 #include <new>
 #include <system_error>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 #include "server/cli/commands.h"
-#include "server/jobs/store.h"
+#include "server/jobs/store_errors.h"
 
 namespace sheer::cli {
 
@@ -41,7 +41,7 @@ Failure describe_failure(const std::exception& error) {
     }
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
         return {exit_render_failed, message("render", "The renderer ran out of memory."), false};
-    return {exit_render_failed, message("render", "An error within the renderer; the log of the service has it."),
+    return {exit_render_failed, message("render", "An error within the renderer; the service's log has the details."),
             false};
 }
 

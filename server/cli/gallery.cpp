@@ -3,9 +3,10 @@
 #include <openssl/evp.h>
 
 #include "renderer/assets/file_assets.h"
-#include "renderer/compare.h"
+#include "renderer/compare/compare.h"
+#include "renderer/core/files.h"
 #include "renderer/files/picture_file.h"
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
 #include "server/cli/commands.h"
 #include "server/cli/rendering.h"
 
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr int thumbnail_px = 320;
 constexpr int size_px = 128, gap_px = 6, label_px = 22, left_px = 120;
 
 struct GalleryArguments {
@@ -24,15 +26,29 @@ struct GalleryArguments {
     gl::ContextRequest context;
 };
 
-/// The picture that a spec describes, small, by every method.
+/// A small version of a spec's picture by every method.
 Spec small_spec(const std::string& path) {
-    json document = json::parse(read_text(path));
+    json document = json::parse(read_file(path));
     for (const char* field : {"checks", "sweep", "baseline", "suite"}) document.erase(field);
     document["image"].update({{"width", size_px}, {"height", size_px}, {"format", "rgba8"}});
     document["timing"] = {{"warmup", 1}, {"rounds", 1}};
     document["methods"] = json::array();
     for (const MethodInfo& method : all_methods()) document["methods"].push_back(method.id);
     return parse_spec(document);
+}
+
+/// The reference's picture of a spec, as large as a card of the page.
+Image thumbnail(const std::string& path, gl::Context& context, AssetReader& assets) {
+    json document = json::parse(read_file(path));
+    for (const char* field : {"checks", "sweep", "baseline", "suite"}) document.erase(field);
+    document["image"].update({{"width", thumbnail_px}, {"height", thumbnail_px}, {"format", "rgba8"}});
+    document["timing"] = {{"warmup", 1}, {"rounds", 1}};
+    document["methods"] = {"unsorted"};
+    Image picture;
+    compare(
+        parse_spec(document), context, assets, [](double, const std::string&) {},
+        [&picture](const Run& run) { picture = run.reference_image; });
+    return picture;
 }
 
 std::string base64(const std::string& bytes) {
@@ -44,7 +60,7 @@ std::string base64(const std::string& bytes) {
     return text;
 }
 
-/// Rows of labelled pictures as one SVG file that needs nothing else.
+/// Rows of labelled pictures as one self-contained SVG file.
 class Sheet {
   public:
     void add(const Run& run, const std::string& name) {
@@ -57,7 +73,8 @@ class Sheet {
             if (m_rows == 1)
                 m_body += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", left + size_px / 2,
                                       label_px - gap_px / 2, result.method.id);
-            m_body += result.status == "ok" ? picture(result.image, left, top) : missing(result.status, left, top);
+            m_body += result.status == report::ResultStatus::ok ? picture(result.image, left, top)
+                                                                : missing(word_of(result.status), left, top);
         }
         m_columns = std::max(m_columns, column);
     }
@@ -88,7 +105,7 @@ class Sheet {
 
 int run_gallery(const GalleryArguments& options) {
     const auto context = gl::open_device(options.context);
-    if (!options.thumbnails.empty()) fs::create_directories(options.thumbnails);
+    if (!options.thumbnails.empty()) fs::create_directories(fs::path(options.thumbnails) / "specs");
     Sheet sheet;
     for (const std::string& path : options.specs) {
         const Spec spec = small_spec(path);
@@ -97,23 +114,27 @@ int run_gallery(const GalleryArguments& options) {
         const auto take = [&](const Run& run) {
             sheet.add(run, name);
             if (!options.thumbnails.empty())
-                write_text(fs::path(options.thumbnails) / (spec.scene_type + ".png"),
+                write_file(fs::path(options.thumbnails) / (spec.scene_type + ".png"),
                            encode_png(quantize(run.reference_image)));
         };
         fmt::print("{}\n", path);
+        if (!options.thumbnails.empty())
+            write_file(fs::path(options.thumbnails) / "specs" / (name + ".jpg"),
+                       encode_jpeg(quantize(thumbnail(path, *context, assets))));
         compare(
             spec, *context, assets, [](double, const std::string&) {}, take);
     }
-    write_text(options.out, sheet.svg());
+    write_file(options.out, sheet.svg());
     return exit_ok;
 }
 
 }  // namespace
 
 void add_gallery(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("gallery", "One picture of every method on the scenes of specs")->group("");
+    CLI::App* command =
+        app.add_subcommand("gallery", "One picture with every method on the scenes of specs")->group("");
     auto options = std::make_shared<GalleryArguments>();
-    command->add_option("specs", options->specs, "Specs, a row each")->required();
+    command->add_option("specs", options->specs, "Specs, one row for each")->required();
     command->add_option("--out", options->out, "The SVG file")->required();
     command->add_option("--thumbnails", options->thumbnails, "Folder for a PNG of each scene type");
     add_context_options(*command, options->context);

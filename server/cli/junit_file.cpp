@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "renderer/core/clock.h"
+#include "renderer/core/files.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
 #include "server/cli/manifest.h"
@@ -21,7 +23,7 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
     return !below.empty() && *below.begin() != "..";
 }
 
-/// Names in the folder of the report that are not for others.
+/// Names in the report's folder that are reserved for the report.
 bool is_reports_own(const fs::path& file, const fs::path& out) {
     if (out.empty() || !lies_in(file, out)) return false;
     const fs::path first = *fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(out)).begin();
@@ -39,22 +41,24 @@ JunitFile::JunitFile(const std::string& file, const fs::path& spec, const fs::pa
     const fs::path folder = m_file.parent_path();
     if (!out.empty() && !folder.empty() && lies_in(folder, out)) fs::create_directories(folder, error);
     const bool is_plain = !fs::exists(m_file, error) || fs::is_regular_file(m_file, error);
-    // What goes into a pipe cannot be taken back, and opening one may wait for its reader.
+    // Data written to a pipe cannot be taken back, and opening one may wait for its reader.
     const bool is_writable = is_plain ? bool(std::ofstream(m_file, std::ios::binary | std::ios::app))
                                       : !fs::is_directory(m_file, error) && access(m_file.c_str(), W_OK) == 0;
     if (!is_writable) throw UsageError("cannot write " + file);
-    if (is_plain) write_error("The comparison did not end", "Nothing was written after it had begun.");
+    if (is_plain) write_error("The comparison did not end", "Nothing was written after it started.");
 }
 
-void JunitFile::write(const nlohmann::json& report) const {
-    if (!m_file.empty()) write_text(m_file, report_junit(report));
+void JunitFile::write(const report::Report& report) const {
+    if (!m_file.empty()) write_file(m_file, report_junit(report));
 }
 
 void JunitFile::write_error(const std::string& title, const std::string& detail) const {
-    write({{"status", "failed"},
-           {"error", {{"title", title}, {"detail", detail}}},
-           {"spec", {{"title", "sheer compare"}}},
-           {"created_at", utc_now()}});
+    report::Report report;
+    report.status = report::Status::failed;
+    report.error = report::Error{title, detail};
+    report.spec = {{"title", "sheer compare"}};
+    report.created_at = utc_now();
+    write(report);
 }
 
 std::string junit_argument(int argc, const char* const* argv) {

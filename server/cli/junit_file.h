@@ -1,22 +1,23 @@
 #pragma once
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "renderer/results/report.h"
 
 namespace sheer::cli {
 
-/// The file of --junit. It never tells of an earlier run: from the start on it holds an <error> that says that the
-/// comparison did not end, which is what stays there if the process is killed.
+/// The file of --junit. It never describes an earlier run: at the start it gets an <error> that says that the
+/// comparison did not end, which remains if the process is killed.
 class JunitFile {
   public:
-    /// "" for none. Makes the folder of the file only where that lies in `out`, the folder of the report, which may not
-    /// be there yet. Throws UsageError, with nothing touched, if the file cannot be written, or is the spec or a file
+    /// "" for none. Makes the folder of the file only if it is within `out`, the folder of the report, which may not
+    /// exist yet. Throws UsageError, without changing anything, if the file cannot be written, or is the spec or a file
     /// of the report.
     JunitFile(const std::string& file, const std::filesystem::path& spec, const std::filesystem::path& out);
 
     /// See report_junit(). Throws std::runtime_error.
-    void write(const nlohmann::json& report) const;
-    /// One case, with an <error>.
+    void write(const report::Report& report) const;
+    /// Writes one case, with an <error>.
     void write_error(const std::string& title, const std::string& detail) const;
 
   private:

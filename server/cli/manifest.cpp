@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "renderer/sha256.h"
+#include "renderer/core/files.h"
+#include "renderer/core/sha256.h"
 #include "server/cli/commands.h"
 #include "version.h"
 
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A name that stays in the folder, at most one folder down. What a manifest says is believed no further.
+/// A name within the folder, at most one level down. Other names in a manifest are not trusted.
 bool stays_inside(const fs::path& name) {
     const auto parts = std::distance(name.begin(), name.end());
     return name.is_relative() && (parts == 1 || parts == 2) &&
@@ -38,11 +39,11 @@ Manifest Manifest::read(const fs::path& folder) {
     const fs::file_type type = fs::symlink_status(file).type();
     if (type == fs::file_type::not_found) return {};
     try {
-        if (type == fs::file_type::regular) return parse_manifest(json::parse(read_text(file)));
+        if (type == fs::file_type::regular) return parse_manifest(json::parse(read_file(file)));
     } catch (const std::exception&) {
-        // What cannot be read is no manifest either.
+        // A file that cannot be read is not a manifest either.
     }
-    throw UsageError(fmt::format("{} is no manifest of Sheer's; remove it or choose another folder", file.string()));
+    throw UsageError(fmt::format("{} is not a manifest of Sheer's; remove it or choose another folder", file.string()));
 }
 
 std::string Manifest::text() const {
@@ -57,7 +58,7 @@ std::string Manifest::text() const {
 
 bool Manifest::owns(const fs::path& folder, const std::string& name) const {
     if (std::ranges::find(m_entries, name, &Entry::name) == m_entries.end()) return false;
-    // A link, or a file behind one, lies elsewhere.
+    // A link, or a file behind one, is outside the folder.
     fs::path part = folder;
     for (const fs::path& next : fs::path(name)) {
         part /= next;
@@ -66,7 +67,7 @@ bool Manifest::owns(const fs::path& folder, const std::string& name) const {
     if (!fs::is_regular_file(part)) return false;
     std::string sha256;
     try {
-        sha256 = sha256_hex(read_text(part));
+        sha256 = sha256_hex(read_file(part));
     } catch (const std::exception&) {
         return false;
     }

@@ -11,7 +11,8 @@
 #include <ranges>
 #include <system_error>
 
-#include "renderer/sha256.h"
+#include "renderer/core/files.h"
+#include "renderer/core/sha256.h"
 #include "server/cli/commands.h"
 
 namespace sheer::cli {
@@ -27,17 +28,17 @@ bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path));
 }
 
-/// Moves a file to where nothing is yet. Throws std::system_error, also if something is there.
+/// Moves a file to a free name. Throws std::system_error, also if the name is taken.
 void move_to_free_place(const fs::path& from, const fs::path& to) {
     if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
-    // Not every file system can do it in one step.
+    // Not every file system can do this in one step.
     const bool must_look = errno == EINVAL || errno == ENOSYS;
     if (must_look && !is_there(to) && std::rename(from.c_str(), to.c_str()) == 0) return;
     throw std::system_error(must_look && is_there(to) ? EEXIST : errno, std::generic_category(),
                             fmt::format("cannot move {} to {}", from.string(), to.string()));
 }
 
-/// Moves files, and moves them back unless all of it went well.
+/// Moves files, and moves them back unless everything succeeded.
 class Moves {
   public:
     Moves() = default;
@@ -66,10 +67,10 @@ std::vector<std::string> files_in(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse_foreign(const fs::path& file, const Manifest& manifest) {
-    const char* why = manifest.is_empty() ? "no manifest says that Sheer wrote it (older versions kept none)"
-                                          : "the manifest does not say that Sheer wrote it as it is now";
+    const char* why = manifest.is_empty() ? "there is no manifest saying that Sheer wrote it (older versions kept none)"
+                                          : "according to the manifest, Sheer did not write it as it is now";
     throw UsageError(fmt::format(
-        "{} is there already, and {}. It stays as it is: move it away, or choose another folder", file.string(), why));
+        "{} already exists, and {}. It is left as it is: move it away, or choose another folder", file.string(), why));
 }
 
 [[noreturn]] void refuse_unwritable(const fs::path& folder, int error) {
@@ -84,10 +85,9 @@ int take_lock(const fs::path& folder) {
     if (lock < 0) refuse_unwritable(folder, errno);
     if (flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(lock);
-        throw UsageError(
-            fmt::format("another process of Sheer's writes into {} just now", folder.parent_path().string()));
+        throw UsageError(fmt::format("another Sheer process is writing into {}", folder.parent_path().string()));
     }
-    // Where there are no locks at all, two processes at a time are not noticed.
+    // On file systems without locks, two simultaneous processes go unnoticed.
     struct stat locked {
     }, there{};
     if (fstat(lock, &locked) == 0 && lstat(file.c_str(), &there) == 0 && locked.st_ino == there.st_ino) return lock;
@@ -124,7 +124,7 @@ fs::path OutputFolder::partial() const {
 
 void OutputFolder::check_names(const fs::path& folder, const Manifest& manifest) const {
     if (!manifest.is_empty() && manifest.main_file() != m_names.main_file)
-        throw UsageError(fmt::format("{} holds a {} of Sheer's; choose another folder for a {}", folder.string(),
+        throw UsageError(fmt::format("{} contains a {} of Sheer's; choose another folder for a {}", folder.string(),
                                      manifest.main_file(), m_names.main_file));
     const auto check = [&](const std::string& name) {
         if (is_there(folder / name) && !manifest.owns(folder, name)) refuse_foreign(folder / name, manifest);
@@ -158,7 +158,7 @@ void OutputFolder::lock_partial() {
             refuse_foreign(m_work, m_manifest);
         m_lock = take_lock(m_work);
     }
-    // Nobody works here: what there is was left by a process that is dead.
+    // No process works here: what is left is from a process that died.
     for (const char* name : {new_name, old_name}) fs::remove_all(m_work / name);
 }
 
@@ -176,20 +176,21 @@ void OutputFolder::publish(const fs::path& folder, bool complete) {
     const Manifest old = Manifest::read(folder);
     check_names(folder, old);
     std::vector<std::string> names = files_in(partial());
-    // The main file comes last: whoever finds it finds all that it names.
+    // The main file comes last: if it is there, so is everything that it names.
     std::ranges::stable_partition(names, [&](const std::string& name) { return name != m_names.main_file; });
     Manifest now(m_names.main_file, complete);
     for (const std::string& name : names) {
         if (is_there(folder / name) && !old.owns(folder, name)) refuse_foreign(folder / name, old);
-        now.add({name, sha256_hex(read_text(partial() / name))});
+        now.add({name, sha256_hex(read_file(partial() / name))});
     }
-    // While files move, the manifest names those of both reports, lest some become nobody's if this process dies.
+    // While files are moved, the manifest names those of both reports, so that none is lost track of if this process
+    // dies.
     Manifest both = now;
     for (const Manifest::Entry& entry : old.entries()) both.add(entry);
     const fs::path manifest = folder / Manifest::file_name;
-    write_text(m_work / "both.json", both.text());
-    write_text(m_work / "now.json", now.text());
-    write_text(m_work / "before.json", old.text());
+    write_file(m_work / "both.json", both.text());
+    write_file(m_work / "now.json", now.text());
+    write_file(m_work / "before.json", old.text());
     fs::rename(m_work / "both.json", manifest);
     try {
         Moves moves;
@@ -228,7 +229,7 @@ void OutputFolder::discard() noexcept {
         close(m_lock);
         m_lock = -1;
     }
-    // Takes away nothing but empty folders.
+    // This removes only empty folders.
     rmdir(m_work.c_str());
     for (const fs::path& folder : std::views::reverse(m_made)) rmdir(folder.c_str());
     m_made.clear();

@@ -7,36 +7,36 @@
 
 namespace sheer::cli {
 
-/// What is going to be written into a folder.
+/// The files that will be written into a folder.
 struct OutputNames {
-    std::string main_file;                   ///< what the folder is about; it comes last
+    std::string main_file;                   ///< the folder's main file; it comes last
     std::vector<std::string> others;         ///< further files beside it
     std::vector<std::string> picture_stems;  ///< pictures in images/ are called STEM.something
 };
 
-/// A folder that a report is written into, whole or not at all: it is made in a hidden folder within, and its files
-/// take their places when all of them are there. What Sheer did not write, or what was changed since it did, is never
-/// removed or overwritten; a Manifest tells the two apart.
+/// A folder into which a report is written, completely or not at all: it is made in a hidden folder within, and its
+/// files are moved into place when all of them are there. Files that Sheer did not write, or that were changed since,
+/// are never removed or overwritten; a Manifest identifies them.
 class OutputFolder {
   public:
-    /// Makes `folder` and those above it if need be. Throws UsageError if it cannot be written, if it holds a file of
-    /// the user's where one of `names` goes or a report of another kind, or if another process writes into it just now;
-    /// then nothing was touched.
+    /// Makes `folder` and its parents if necessary. Throws UsageError, without changing anything, if it cannot be
+    /// written, if it contains a user's file with one of `names` or output of another kind, or if another process is
+    /// writing into it.
     OutputFolder(std::filesystem::path folder, OutputNames names);
     ~OutputFolder() { discard(); }
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    /// Where to write everything.
+    /// The folder to write everything into.
     std::filesystem::path partial() const;
 
-    /// Puts what is in partial() into its place, and removes what is left of the report that was there. One that is not
-    /// `complete` does not take the place of one that is, but goes into the folder "incomplete" beside it. Returns the
-    /// folder that it is in now. Throws UsageError for a file of the user's that is in the way, std::exception if
-    /// something cannot be moved; the folder then is as it was.
+    /// Moves the contents of partial() into place, and removes the rest of the previous report. An incomplete report
+    /// does not replace a complete one, but goes into the folder "incomplete" beside it. Returns the folder of the
+    /// report. Throws UsageError if a user's file is in the way, and std::exception if something cannot be moved; then
+    /// the folder is unchanged.
     std::filesystem::path commit(bool complete = true);
 
-    /// Removes what is in partial(). Called again it does nothing.
+    /// Removes the contents of partial(). Calling it again does nothing.
     void discard() noexcept;
 
   private:
@@ -49,7 +49,7 @@ class OutputFolder {
     std::filesystem::path m_folder, m_work;
     OutputNames m_names;
     Manifest m_manifest;
-    std::vector<std::filesystem::path> m_made;  ///< folders that were not there before, the outermost first
+    std::vector<std::filesystem::path> m_made;  ///< folders that did not exist before, the outermost first
     int m_lock = -1;                            ///< locked while this process works in m_work
 };
 

@@ -1,17 +1,22 @@
-// The worker's child: renders one job and says how far it is, a JSON object a line. It may die without harm.
+// The worker's child process: renders one job and reports its progress, one JSON object per line. It may crash without
+// harm.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
 
 #include "renderer/assets/file_assets.h"
-#include "renderer/compare.h"
+#include "renderer/compare/compare.h"
+#include "renderer/core/clock.h"
+#include "renderer/core/files.h"
 #include "renderer/files/blob_sink.h"
-#include "renderer/frame/target.h"
+#include "renderer/params/json_text.h"
+#include "renderer/passes/pass.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
 #include "server/cli/failure.h"
 #include "server/cli/rendering.h"
+#include "server/http/paths.h"
 
 namespace sheer::cli {
 
@@ -20,13 +25,13 @@ namespace {
 using nlohmann::json;
 
 struct RenderArguments {
-    std::string spec, out, assets;
+    std::string spec, out, data;
     bool probe = false;
     gl::ContextRequest context;
 };
 
 void say(const json& line) {
-    fmt::print("{}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
+    fmt::print("{}\n", json_line(line));
     std::fflush(stdout);
 }
 
@@ -35,9 +40,7 @@ int probe(gl::Context& context) {
     ImageSpec image;
     image.width_px = image.height_px = 1;
     const Target target(context.gl(), image, PixelFormat::rgba8);
-    begin_pass(context.gl(), target.framebuffer(), 1, 1);
-    const float green[] = {0, 1, 0, 1};
-    context.gl().ClearBufferfv(GL_COLOR, 0, green);
+    Pass(context.gl(), target).clear_color({0, 1, 0, 1});
     const Image read = target.read();
     context.check("the probe");
     if (quantize(read).rgb != std::vector<std::uint8_t>{0, 255, 0}) throw RenderError("the probe's pixel is not green");
@@ -48,10 +51,10 @@ int run_render(const RenderArguments& options) {
     try {
         if (options.probe) return probe(*gl::open_device(options.context));
         const std::string created_at = utc_now();
-        const Spec spec = parse_spec_text(read_text(options.spec));
+        const Spec spec = parse_spec_text(read_file(options.spec));
         const auto context = gl::open_device(options.context);
-        FileAssets assets(uploads_in(options.assets));
-        ContentSink sink(options.out);
+        FileAssets assets(uploads_of(options.data));
+        ContentSink sink(options.out, http::blobs_path);
         ReportMaker maker(spec, describe_device(*context), &sink, created_at);
         compare(
             spec, *context, assets,
@@ -59,10 +62,9 @@ int run_render(const RenderArguments& options) {
                 say({{"progress", fraction}, {"stage", stage}});
             },
             [&](const Run& run) { maker.add(run); });
-        const json report = maker.finish();
-        write_text(std::filesystem::path(options.out) / "report.json",
-                   report.dump(-1, ' ', false, json::error_handler_t::replace));
-        return report["verdict"] == "failed" ? exit_check_failed : exit_ok;
+        const report::Report report = maker.finish();
+        write_file(std::filesystem::path(options.out) / "report.json", json_line(to_document(report)));
+        return report.verdict == report::ReportVerdict::failed ? exit_check_failed : exit_ok;
     } catch (const std::exception& error) {
         const Failure failure = describe_failure(error);
         if (!failure.is_for_caller) spdlog::error("the renderer failed: {}", error.what());
@@ -78,7 +80,7 @@ void add_render(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<RenderArguments>();
     command->add_option("spec", options->spec, "The spec, a JSON file");
     command->add_option("--out", options->out, "Folder for report.json and the pictures, named by content");
-    command->add_option("--assets", options->assets, "Folder of the uploaded files, named by content");
+    command->add_option("--data", options->data, "The service's folder with the uploaded files");
     command->add_flag("--probe", options->probe, "Render one pixel and nothing else");
     add_context_options(*command, options->context);
     command->callback([options, &exit_code] { exit_code = run_render(*options); });

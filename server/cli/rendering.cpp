@@ -1,28 +1,33 @@
 #include "server/cli/rendering.h"
 
-#include "server/archive/blob_store.h"
+#include <fmt/format.h>
+
+#include "renderer/core/sha256.h"
+#include "server/archive/content_folder.h"
+#include "server/archive/data_folder.h"
 #include "server/cli/commands.h"
 
 namespace sheer::cli {
 
 void add_context_options(CLI::App& command, gl::ContextRequest& request) {
-    command.add_option("--context", request.context, "Where to render: auto tries EGL, then OSMesa")
+    command.add_option("--context", request.context, "How to make a context: auto tries EGL, then OSMesa")
         ->check(CLI::IsMember({"auto", "egl", "osmesa", "glfw"}))
         ->capture_default_str();
     add_device_options(command, request);
 }
 
-FileAssets::Resolver uploads_in(const std::filesystem::path& folder) {
-    return [folder](const std::string& name) {
-        if (folder.empty() || !is_sha256(name)) throw AssetError("this is not the SHA-256 of an uploaded file");
-        std::filesystem::path file = blob_path(folder, name);
-        if (!std::filesystem::exists(file)) throw AssetError("the asset with this SHA-256 is not there any more");
+FileAssets::Resolver uploads_of(const std::string& data) {
+    return [data](const std::string& name) {
+        if (data.empty() || !is_sha256(name)) throw AssetError("this is not the SHA-256 of an uploaded file");
+        const ContentFolder uploads(DataFolder{data}.assets());
+        const auto file = uploads.find(name);
+        if (!file) throw AssetError("the asset with this SHA-256 no longer exists");
         try {
-            if (sha256_of_file(file) == name) return file;
-        } catch (const StoreError&) {
-            throw AssetError("the asset with this SHA-256 cannot be read");
+            uploads.open(name);
+        } catch (const DamagedData& damaged) {
+            throw AssetError(fmt::format("the asset with this SHA-256 is damaged: {}", damaged.what()));
         }
-        throw AssetError("the asset with this SHA-256 is damaged: its bytes have another hash");
+        return *file;
     };
 }
 

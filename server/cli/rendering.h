@@ -7,10 +7,10 @@
 
 namespace sheer::cli {
 
-/// Adds --context and what add_device_options() adds: --device and --without-workaround to `command`.
+/// Adds --context and the options of add_device_options(), --device and --without-workaround, to `command`.
 void add_context_options(CLI::App& command, gl::ContextRequest& request);
 
-/// Uploaded files by their SHA-256, and nothing else.
-FileAssets::Resolver uploads_in(const std::filesystem::path& folder);
+/// The uploaded files of a service by their SHA-256, and nothing else. `data` is its folder, "" for none.
+FileAssets::Resolver uploads_of(const std::string& data);
 
 }  // namespace sheer::cli

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
+#include <type_traits>
 
 namespace sheer::cli {
 
@@ -10,153 +13,220 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double gibibyte = 1024.0 * 1024 * 1024;
-constexpr double day_s = 86'400;
+constexpr double kibibyte = 1024, mebibyte = 1024 * kibibyte, gibibyte = 1024 * mebibyte, tebibyte = 1024 * gibibyte;
+constexpr double day_s = 86'400, week_s = 7 * day_s, hour_s = 3600;
+constexpr double shortest_s = 0.05;
 
-Param seconds(std::string name, std::string summary, double fallback, double max_s) {
-    return Param::number(std::move(name), std::move(summary), "s", fallback, 0.05, max_s);
+/// A field of the file, and the member that gets its value. Its default is the member's value in a new ServiceConfig.
+struct Setting {
+    Param param;
+    std::function<void(ServiceConfig& config, const json& value)> set;
+};
+
+/// The fields under one name; "" for those at the top level.
+struct Section {
+    std::string name, summary;
+    std::vector<Setting> settings;
+};
+
+/// The place of a value in a ServiceConfig.
+template <typename Outer, typename Value>
+auto in(Outer ServiceConfig::*outer, Value Outer::*value) {
+    return [=](ServiceConfig& config) -> Value& { return config.*outer.*value; };
+}
+template <typename Value>
+auto at(Value ServiceConfig::*value) {
+    return [=](ServiceConfig& config) -> Value& { return config.*value; };
 }
 
-std::vector<Param> http_fields() {
-    const http::Limits limits;
+template <typename Place>
+Setting integer(std::string name, std::string summary, std::string unit, double min, double max, Place place) {
+    using Number = std::remove_reference_t<std::invoke_result_t<Place, ServiceConfig&>>;
+    ServiceConfig defaults;
+    const auto fallback = static_cast<long long>(place(defaults));
+    return {Param::integer(std::move(name), std::move(summary), std::move(unit), fallback, min, max),
+            [place](ServiceConfig& config, const json& value) { place(config) = value.get<Number>(); }};
+}
+
+template <typename Place>
+Setting bytes(std::string name, std::string summary, double min, double max, Place place) {
+    return integer(std::move(name), std::move(summary), "byte", min, max, place);
+}
+
+/// For std::chrono::milliseconds, or a count of them.
+template <typename Place>
+Setting seconds(std::string name, std::string summary, double max_s, Place place) {
+    using Time = std::remove_reference_t<std::invoke_result_t<Place, ServiceConfig&>>;
+    ServiceConfig defaults;
+    const std::chrono::duration<double> fallback = std::chrono::milliseconds(place(defaults));
+    return {Param::number(std::move(name), std::move(summary), "s", fallback.count(), shortest_s, max_s),
+            [place](ServiceConfig& config, const json& value) {
+                place(config) = Time(static_cast<std::int64_t>(value.get<double>() * 1000));
+            }};
+}
+
+/// For std::chrono::seconds.
+template <typename Place>
+Setting whole_seconds(std::string name, std::string summary, double min_s, double max_s, Place place) {
+    ServiceConfig defaults;
+    return {Param::integer(std::move(name), std::move(summary), "s", place(defaults).count(), min_s, max_s),
+            [place](ServiceConfig& config, const json& value) {
+                place(config) = std::chrono::seconds(value.get<std::int64_t>());
+            }};
+}
+
+Section general_settings() {
+    const ServiceConfig defaults;
+    Param hosts{.name = "allowed_hosts",
+                .kind = Param::Kind::any,
+                .summary = "further host names for which the service answers"};
+    hosts.default_value = json::array();
+    return {"",
+            "",
+            {{Param::text("listen", "ADDRESS:PORT; port 0 takes any free port, which is printed on standard output",
+                          defaults.listen, 200),
+              [](ServiceConfig& config, const json& value) { config.listen = value; }},
+             {Param::text("data", "folder of the archive: `archive.sqlite`, `blobs/`, `assets/`, `scratch/`",
+                          defaults.data.string(), 4096),
+              [](ServiceConfig& config, const json& value) { config.data = value.get<std::string>(); }},
+             integer("workers",
+                     "worker processes; they disturb each other's timings, so use more than one only for pictures, not "
+                     "for measurements; 0 for none",
+                     "", 0, 256, at(&ServiceConfig::workers)),
+             {hosts, [](ServiceConfig& config,
+                        const json& value) { config.allowed_hosts = value.get<std::set<std::string>>(); }},
+             {Param::choice("log_level", "least severe messages that are logged; reloaded on SIGHUP",
+                            defaults.log_level, {"debug", "info", "warning", "error"}),
+              [](ServiceConfig& config, const json& value) { config.log_level = value; }}}};
+}
+
+Section http_settings() {
+    using http::AnswerLimits, http::Limits;
+    const auto of_connections = [](auto member) { return in(&ServiceConfig::http, member); };
+    const auto of_answers = [](auto member) { return in(&ServiceConfig::answers, member); };
     return {
-        Param::integer("max_connections", "connections at a time", "", limits.max_connections, 1, 100'000),
-        Param::integer("max_streams_per_client",
-                       "streams of events and waiting requests of one client's address at a time", "",
-                       limits.max_streams_per_client, 1, 100'000),
-        Param::integer("threads", "threads that make answers", "", limits.threads, 1, 64),
-        Param::integer("header_bytes", "size of a request's header", "byte", limits.header_bytes, 1024, 1 << 20),
-        Param::integer("body_bytes", "size of a request's body", "byte", static_cast<long long>(limits.body_bytes),
-                       1024, gibibyte),
-        Param::integer("drain_bytes", "what is read and dropped of a body that is too long", "byte",
-                       static_cast<long long>(limits.drain_bytes), 0, 16 * gibibyte),
-        seconds("idle_timeout_s", "between two requests of a connection", 60, day_s),
-        seconds("header_timeout_s", "for a request's header", 10, day_s),
-        seconds("body_timeout_s", "for a request's body", 30, day_s),
-        seconds("write_timeout_s", "for the other side to take a piece of an answer", 30, day_s),
-        seconds("event_heartbeat_s", "between two signs of life in a stream of events", 15, day_s),
-        seconds("stop_timeout_s", "for answers on their way when the service stops", 5, day_s),
-        Param::integer("max_wait_s", "what `Prefer: wait` is cut to", "s", 300, 0, day_s),
-        Param::integer("ready_within_s", "how long after a worker's last rendering the service counts as ready", "s",
-                       90, 1, day_s),
-        Param::integer("devices_cache_s", "how long the list of devices is kept", "s", 60, 0, day_s),
-    };
+        "http",
+        "limits for connections",
+        {integer("max_connections", "simultaneous connections; if all are busy, further ones get 503", "", 1, 100'000,
+                 of_connections(&Limits::max_connections)),
+         integer("max_streams_per_client",
+                 "simultaneous streams of events and waiting requests from one client's address", "", 1, 100'000,
+                 of_connections(&Limits::max_streams_per_client)),
+         integer("threads", "threads that make answers", "", 1, 64, of_connections(&Limits::threads)),
+         bytes("header_bytes", "size of a request's header; longer ones get 431", kibibyte, mebibyte,
+               of_connections(&Limits::header_bytes)),
+         bytes("body_bytes", "size of a request's body; longer ones get 413", kibibyte, gibibyte,
+               of_connections(&Limits::body_bytes)),
+         bytes("drain_bytes", "part of a too long body that is read and dropped, so that its sender sees the 413", 0,
+               16 * gibibyte, of_connections(&Limits::drain_bytes)),
+         seconds("idle_timeout_s", "time between two requests on a connection", day_s,
+                 of_connections(&Limits::idle_timeout)),
+         seconds("header_timeout_s", "time for a request's header to arrive", day_s,
+                 of_connections(&Limits::header_timeout)),
+         seconds("body_timeout_s", "time for a request's body to arrive", day_s, of_connections(&Limits::body_timeout)),
+         seconds("write_timeout_s", "time for the other side to accept a piece of an answer", day_s,
+                 of_connections(&Limits::write_timeout)),
+         seconds("event_heartbeat_s", "time between two signs of life in a stream of events", day_s,
+                 of_connections(&Limits::event_heartbeat)),
+         seconds("stop_timeout_s", "time for pending answers when the service stops", day_s,
+                 of_connections(&Limits::stop_timeout)),
+         whole_seconds("max_wait_s", "longest wait that `Prefer: wait` can request", 0, day_s,
+                       of_answers(&AnswerLimits::max_wait)),
+         whole_seconds("ready_within_s", "how long after a worker's last rendering `/readyz` reports readiness", 1,
+                       day_s, of_answers(&AnswerLimits::ready_within)),
+         whole_seconds("devices_cache_s", "how long the list of devices is kept", 0, day_s,
+                       at(&ServiceConfig::devices_cache))}};
 }
 
-std::vector<Param> jobs_fields() {
-    const LeaseRules rules;
-    return {Param::integer("max_queued", "jobs that may wait", "", 100, 0, 1'000'000),
-            seconds("lease_s", "how long a worker that gives no sign of life keeps its job", 10, day_s),
-            seconds("heartbeat_s", "between two signs of life", 1, day_s),
-            Param::integer("max_attempts", "how often a job is tried whose worker or renderer dies", "",
-                           rules.max_attempts, 1, 10)};
+Section jobs_settings() {
+    const auto of_leases = [](auto member) { return in(&ServiceConfig::leases, member); };
+    return {"jobs",
+            "the queue",
+            {integer("max_queued", "jobs that may wait", "", 0, 1'000'000,
+                     in(&ServiceConfig::answers, &http::AnswerLimits::max_queued)),
+             seconds("lease_s", "how long a worker without a sign of life keeps its job; longer than `heartbeat_s`",
+                     day_s, of_leases(&LeaseRules::lease_ms)),
+             seconds("heartbeat_s", "time between two signs of life", day_s, of_leases(&LeaseRules::heartbeat_ms)),
+             integer("max_attempts", "how many times a job is tried if its worker or renderer dies", "", 1, 10,
+                     of_leases(&LeaseRules::max_attempts))}};
 }
 
-std::vector<Param> assets_fields() {
-    const UploadCheckOptions check;
-    return {Param::integer("max_bytes", "size of an uploaded file", "byte", 64 << 20, 1024, gibibyte),
-            Param::integer("check_memory_bytes", "address space of the process that reads an upload; 0 for no limit",
-                           "byte", static_cast<long long>(check.memory_limit_bytes), 0, 1024 * gibibyte),
-            seconds("check_time_s", "for reading an upload", 20, 3600)};
+Section assets_settings() {
+    const auto of_check = [](auto member) { return in(&ServiceConfig::upload_check, member); };
+    return {"assets",
+            "uploaded files",
+            {bytes("max_bytes", "size of an uploaded file; longer ones get 413", kibibyte, gibibyte,
+                   in(&ServiceConfig::answers, &http::AnswerLimits::max_asset_bytes)),
+             bytes("check_memory_bytes", "address space of the process that reads an upload; 0 for no limit", 0,
+                   tebibyte, of_check(&UploadCheckOptions::memory_limit_bytes)),
+             seconds("check_time_s", "time for reading an upload", hour_s, of_check(&UploadCheckOptions::time_limit))}};
 }
 
-std::vector<Param> worker_fields() {
-    return {Param::integer("memory_limit_bytes", "address space of a renderer; 0 for no limit", "byte",
-                           static_cast<long long>(8 * gibibyte), 0, 1024 * gibibyte),
-            seconds("time_limit_s", "for one job", 1800, 7 * day_s),
-            seconds("pixel_time_limit_s", "for taking one pixel of a report apart", 60, 3600),
-            seconds("poll_s", "between two looks into the queue", 0.15, 60),
-            seconds("probe_interval_s", "between two probes of an idle worker", 30, day_s)};
+Section worker_settings() {
+    const auto of_worker = [](auto member) { return in(&ServiceConfig::worker, member); };
+    return {"worker",
+            "the processes that render",
+            {bytes("memory_limit_bytes", "address space of a renderer; 0 for no limit", 0, tebibyte,
+                   of_worker(&WorkerOptions::memory_limit_bytes)),
+             seconds("time_limit_s", "time for one job", week_s, of_worker(&WorkerOptions::time_limit)),
+             seconds("pixel_time_limit_s", "time for explaining one pixel of a report", hour_s,
+                     in(&ServiceConfig::pixel, &PixelOptions::time_limit)),
+             seconds("poll_s", "time between two checks of the queue", 60, of_worker(&WorkerOptions::poll_interval)),
+             seconds("probe_interval_s", "time between two probes of an idle worker, each of which renders one pixel",
+                     day_s, of_worker(&WorkerOptions::probe_interval))}};
 }
 
-std::set<std::string> read_hosts(const json& hosts, std::vector<FieldError>& errors) {
-    std::set<std::string> names;
+std::vector<Section> all_settings() {
+    return {general_settings(), http_settings(), jobs_settings(), assets_settings(), worker_settings()};
+}
+
+void check_hosts(const json& hosts, std::vector<FieldError>& errors) {
     if (!hosts.is_array()) errors.push_back({"/allowed_hosts", "must be an array of names"});
-    for (std::size_t i = 0; hosts.is_array() && i < hosts.size(); ++i) {
-        if (hosts[i].is_string()) {
-            names.insert(hosts[i].get<std::string>());
-        } else {
-            errors.push_back({fmt::format("/allowed_hosts/{}", i), "must be a text"});
-        }
-    }
-    return names;
-}
-
-std::chrono::milliseconds ms_of(const json& seconds) {
-    return std::chrono::milliseconds(static_cast<std::int64_t>(seconds.get<double>() * 1000));
-}
-
-http::Limits limits_of(const json& read) {
-    http::Limits limits;
-    limits.max_connections = read["max_connections"];
-    limits.max_streams_per_client = read["max_streams_per_client"];
-    limits.threads = read["threads"];
-    limits.header_bytes = read["header_bytes"];
-    limits.body_bytes = read["body_bytes"];
-    limits.drain_bytes = read["drain_bytes"];
-    limits.idle_timeout = ms_of(read["idle_timeout_s"]);
-    limits.header_timeout = ms_of(read["header_timeout_s"]);
-    limits.body_timeout = ms_of(read["body_timeout_s"]);
-    limits.write_timeout = ms_of(read["write_timeout_s"]);
-    limits.event_heartbeat = ms_of(read["event_heartbeat_s"]);
-    limits.stop_timeout = ms_of(read["stop_timeout_s"]);
-    return limits;
+    for (std::size_t i = 0; hosts.is_array() && i < hosts.size(); ++i)
+        if (!hosts[i].is_string()) errors.push_back({fmt::format("/allowed_hosts/{}", i), "must be a text"});
 }
 
 }  // namespace
 
 std::vector<Param> service_config_fields() {
-    Param hosts{.name = "allowed_hosts", .kind = Param::Kind::any, .summary = "names that the service answers for"};
-    hosts.default_value = json::array();
-    return {Param::text("listen", "ADDRESS:PORT; port 0 for any that is free", "127.0.0.1:8080", 200),
-            Param::text("data", "folder of the archive", "sheer-data", 4096),
-            Param::integer("workers", "worker processes; 0 for none", "", 1, 0, 256),
-            std::move(hosts),
-            Param::choice("log_level", "what the log tells; read again on SIGHUP", "info",
-                          {"debug", "info", "warning", "error"}),
-            Param::object("http", "what connections may take", http_fields()),
-            Param::object("jobs", "the queue", jobs_fields()),
-            Param::object("assets", "uploaded files", assets_fields()),
-            Param::object("worker", "the processes that render", worker_fields())};
+    std::vector<Param> fields;
+    for (const Section& section : all_settings()) {
+        std::vector<Param> below;
+        for (const Setting& setting : section.settings) below.push_back(setting.param);
+        if (section.name.empty()) {
+            fields = std::move(below);
+        } else {
+            fields.push_back(Param::object(section.name, section.summary, std::move(below)));
+        }
+    }
+    return fields;
 }
 
 ServiceConfig read_service_config(const json& document) {
     if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "must be a JSON object"}});
     std::vector<FieldError> errors;
     const json read = read_fields(document, "", service_config_fields(), errors);
-    std::set<std::string> hosts = read_hosts(read["allowed_hosts"], errors);
+    check_hosts(read["allowed_hosts"], errors);
     if (errors.empty() && read["jobs"]["lease_s"] <= read["jobs"]["heartbeat_s"])
         errors.push_back({"/jobs/lease_s", "must be longer than heartbeat_s"});
     if (!errors.empty()) throw SpecError(std::move(errors));
-    ServiceConfig config{.listen = read["listen"], .data = read["data"].get<std::string>(), .workers = read["workers"]};
-    config.allowed_hosts = std::move(hosts);
-    config.log_level = read["log_level"];
-    config.http = limits_of(read["http"]);
-    config.max_queued = read["jobs"]["max_queued"];
-    config.max_wait = std::chrono::seconds(read["http"]["max_wait_s"].get<int>());
-    config.ready_within = std::chrono::seconds(read["http"]["ready_within_s"].get<int>());
-    config.devices_cache = std::chrono::seconds(read["http"]["devices_cache_s"].get<int>());
-    config.leases = {.lease_ms = ms_of(read["jobs"]["lease_s"]).count(),
-                     .heartbeat_ms = ms_of(read["jobs"]["heartbeat_s"]).count(),
-                     .max_attempts = read["jobs"]["max_attempts"]};
-    config.max_asset_bytes = read["assets"]["max_bytes"];
-    config.upload_check.memory_limit_bytes = read["assets"]["check_memory_bytes"];
-    config.upload_check.time_limit = ms_of(read["assets"]["check_time_s"]);
+    ServiceConfig config;
+    for (const Section& section : all_settings())
+        for (const Setting& setting : section.settings)
+            setting.set(config, (section.name.empty() ? read : read[section.name])[setting.param.name]);
     config.worker.rules = config.leases;
-    config.worker.memory_limit_bytes = read["worker"]["memory_limit_bytes"];
-    config.worker.time_limit = ms_of(read["worker"]["time_limit_s"]);
-    config.pixel_time_limit = ms_of(read["worker"]["pixel_time_limit_s"]);
-    config.worker.poll_interval = ms_of(read["worker"]["poll_s"]);
-    config.worker.probe_interval = ms_of(read["worker"]["probe_interval_s"]);
+    config.pixel.memory_limit_bytes = config.worker.memory_limit_bytes;
+    config.answers.max_checks = config.answers.max_diffs = std::max(1, config.http.threads / 2);
     return config;
 }
 
-ServiceConfig load_service_config(const std::filesystem::path& path) {
-    if (path.empty()) return read_service_config(json::object());
+ServiceConfig load_service_config(const std::filesystem::path& path, const json& overrides) {
+    if (path.empty()) return read_service_config(overrides);
     std::ifstream file(path);
     if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read " + path.string()}});
-    const json document = json::parse(file, nullptr, false, true);
+    json document = json::parse(file, nullptr, false, true);
     if (document.is_discarded()) throw SpecError(std::vector<FieldError>{{"", path.string() + " is not JSON"}});
+    if (document.is_object()) document.update(overrides);
     return read_service_config(document);
 }
 

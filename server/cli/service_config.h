@@ -4,39 +4,40 @@
 #include <string>
 #include <vector>
 
-#include "renderer/spec/param.h"
+#include "renderer/params/param.h"
+#include "server/children/pixel_child.h"
+#include "server/children/upload_check.h"
 #include "server/http/limits.h"
 #include "server/jobs/lease_rules.h"
-#include "server/worker/upload_check.h"
 #include "server/worker/worker.h"
 
 namespace sheer::cli {
 
-/// Everything that the service and its workers can be told: configs/server.json with defaults filled in.
+/// All settings of the service and its workers. A configuration file sets some of them; the others have the defaults
+/// given here and in the structs.
 struct ServiceConfig {
-    std::string listen;  ///< ADDRESS:PORT
-    std::filesystem::path data;
+    std::string listen = "127.0.0.1:8080";
+    std::filesystem::path data = "sheer-data";
     int workers = 1;
     std::set<std::string> allowed_hosts;
-    std::string log_level;  ///< a name that spdlog knows
+    std::string log_level = "info";  ///< a name that spdlog knows
     http::Limits http;
-    std::size_t max_asset_bytes = 0;
-    UploadCheckOptions upload_check;
-    std::chrono::milliseconds pixel_time_limit{};
-    std::size_t max_queued = 0;
-    std::chrono::seconds max_wait{};
-    std::chrono::seconds ready_within{};
-    std::chrono::seconds devices_cache{};
+    http::AnswerLimits answers;
+    std::chrono::seconds devices_cache{60};
     LeaseRules leases;
-    WorkerOptions worker;  ///< without `data` and `name`
+    UploadCheckOptions upload_check;
+    PixelOptions pixel;    ///< without `data`; its memory is a renderer's
+    WorkerOptions worker;  ///< without `scratch`, `data`, `name` and `rules`
 };
 
-/// What may stand in it.
+/// The fields of a configuration file. Its reader, configs/server.json and the documents are made from them.
 std::vector<Param> service_config_fields();
 
-/// Throws SpecError that names every wrong or unknown field.
+/// Throws SpecError with every wrong or unknown field.
 ServiceConfig read_service_config(const nlohmann::json& document);
-/// The defaults if `path` is empty. Throws SpecError, also if there is no such file or it is not JSON.
-ServiceConfig load_service_config(const std::filesystem::path& path);
+/// The defaults if `path` is empty; `overrides` take precedence over the file. Throws SpecError, also if there is no
+/// such file or it is not JSON.
+ServiceConfig load_service_config(const std::filesystem::path& path,
+                                  const nlohmann::json& overrides = nlohmann::json::object());
 
 }  // namespace sheer::cli

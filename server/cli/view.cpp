@@ -1,4 +1,4 @@
-// A window on a spec's scene.
+// A window that shows a spec's scene.
 #include <fmt/format.h>
 
 #include "renderer/assets/file_assets.h"
@@ -20,7 +20,7 @@ int run_view(const ViewArguments& options) {
     FileAssets assets = assets_in_folder(std::filesystem::path(options.spec).parent_path());
     gl::require_sound_window();
     view::Viewer viewer(spec, options.context, assets, options.screenshot);
-    fmt::print("H or F1 in the window tells the keys.\n");
+    fmt::print("H or F1 in the window lists the keys.\n");
     std::fflush(stdout);
     viewer.run();
     return exit_ok;
@@ -33,7 +33,7 @@ void add_view(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<ViewArguments>();
     command->add_option("spec", options->spec, "The spec, a JSON file (see configs/specs)")->required();
     command->add_option("--screenshot", options->screenshot,
-                        "PNG file for what is shown when the window closes, and for the key P");
+                        "PNG file for the picture shown when the window closes, and for the key P");
     command->add_option("--without-workaround", options->context.disabled_workarounds,
                         "Name of a driver workaround to switch off");
     command->footer(std::string("Keys:\n") + view::keys_text);

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <memory>
 
+#include "server/archive/data_folder.h"
 #include "server/archive/sqlite_store.h"
 #include "server/cli/commands.h"
 #include "server/cli/service_config.h"
@@ -24,12 +25,13 @@ struct WorkerArguments {
 void work(const WorkerArguments& arguments) {
     StopSignal stop;
     spdlog::set_default_logger(spdlog::stderr_color_mt("worker"));
-    // Until the service was started anew its workers keep the level that they began with.
+    // Workers keep the level with which they started until the service is restarted.
     std::signal(SIGHUP, SIG_IGN);
     const ServiceConfig config = load_service_config(arguments.config);
     spdlog::set_level(spdlog::level::from_str(config.log_level));
     SqliteStore store(arguments.data, config.leases, system_now_ms);
     WorkerOptions options = config.worker;
+    options.scratch = DataFolder{arguments.data}.scratch();
     options.data = arguments.data;
     options.name = arguments.name;
     Worker(store, std::move(options), system_now_ms).run(stop);
@@ -41,7 +43,7 @@ void add_worker(CLI::App& app, int& exit_code) {
     auto arguments = std::make_shared<WorkerArguments>();
     CLI::App* command = app.add_subcommand("worker", "Render the jobs of an archive")->group("");
     command->add_option("--data", arguments->data, "Folder of the archive")->required();
-    command->add_option("--name", arguments->name, "Name that no other worker has or had")->required();
+    command->add_option("--name", arguments->name, "Name that no other worker has or has had")->required();
     command->add_option("--config", arguments->config, "The service's JSON file");
     command->callback([arguments, &exit_code] {
         try {

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 
-#include "renderer/spec/json_text.h"
+#include "renderer/params/json_text.h"
 #include "server/http/preconditions.h"
 #include "server/http/problem.h"
 #include "server/http/text.h"
-#include "server/jobs/store.h"
+#include "server/jobs/store_errors.h"
 
 namespace sheer::http {
 
@@ -22,7 +22,7 @@ void add_default(Headers& headers, const char* name, const char* value) {
     if (!headers.contains(name)) headers.add(name, value);
 }
 
-/// What `work` gives, or the problem that it ends with.
+/// The result of `work`, or the problem with which it ends.
 template <typename Result, typename Work>
 Result caught(const Request& request, const Work& work) {
     try {
@@ -34,7 +34,7 @@ Result caught(const Request& request, const Work& work) {
     } catch (const StoreFull& full) {
         spdlog::error("{} {}: {}", request.method, request.target, full.what());
         return problem(507, fmt::format("There is no room: {}.", full.what()));
-    } catch (const DamagedFile& damaged) {
+    } catch (const DamagedData& damaged) {
         spdlog::error("{} {}: {}", request.method, request.target, damaged.what());
         return problem(500, fmt::format("The archive is damaged: {}.", damaged.what()));
     } catch (const std::exception& error) {
@@ -43,7 +43,7 @@ Result caught(const Request& request, const Work& work) {
     }
 }
 
-/// JSON may come without a type. Other bodies may not: their type says how they are read.
+/// JSON may come without a type. Other bodies may not, since their type says how to read them.
 void check_body_type(const Route& route, const std::optional<std::string>& content_type) {
     const bool json_expected = !route.body_schema.empty();
     if (json_expected && (!content_type || is_json_type(*content_type))) return;
@@ -107,7 +107,7 @@ Answer Application::handle(Request& request) const {
     check_body_type(*match.route, request.headers.find("Content-Type"));
     if (!is_safe(request.method) &&
         judge_preconditions(request, match.route->etag ? match.route->etag(request) : "") != Precondition::met)
-        throw Problem(412, "It is not as If-Match or If-None-Match wants it; nothing was done.");
+        throw Problem(412, "If-Match or If-None-Match is not satisfied; nothing was done.");
     return match.route->handle(request);
 }
 
@@ -121,7 +121,7 @@ Response unless_known(Response response, const Request& request) {
             response.body = std::string();
             break;
         case Precondition::failed:
-            return finished(problem(412, "It is not what If-Match wants."));
+            return finished(problem(412, "If-Match is not satisfied."));
     }
     return finished(std::move(response));
 }
@@ -130,7 +130,7 @@ Response finished(Response response) {
     add_default(response.headers, "Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'; sandbox");
     add_default(response.headers, "X-Content-Type-Options", "nosniff");
     add_default(response.headers, "Referrer-Policy", "no-referrer");
-    // Else any page could show the pictures of a service on loopback.
+    // Otherwise any page could show the pictures of a service on loopback.
     add_default(response.headers, "Cross-Origin-Resource-Policy", "same-origin");
     add_default(response.headers, "Cache-Control", "no-store");
     return response;

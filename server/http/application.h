@@ -5,13 +5,14 @@
 
 namespace sheer::http {
 
-/// From a request to its answer: guard, route, query, handler, headers. Knows no sockets. Safe to call from any thread.
+/// From a request to its answer: guard, route, query, handler, headers. Independent of sockets. Safe to call from any
+/// thread.
 class Application {
   public:
     Application(Guard guard, Router router) : m_guard(std::move(guard)), m_router(std::move(router)) {}
-    /// Never throws: what goes wrong is a problem. HEAD is answered like GET; the sender leaves out the body.
+    /// Never throws: errors become problems. HEAD is answered like GET; the sender leaves out the body.
     Answer answer(Request request) const;
-    /// How a request of this method and target is to be treated before its body is there.
+    /// How to treat a request with this method and target before its body has arrived.
     Handling handling(std::string_view method, std::string_view target) const;
 
   private:
@@ -21,12 +22,14 @@ class Application {
     Router m_router;
 };
 
-/// What every response gets: headers against misuse by other sites.
+/// Added to every response: headers that protect against misuse by other sites.
 Response finished(Response response);
-/// To a request that changes nothing, the same; 304 where its sender has it already, 412 where it wants another one.
+/// For a request that changes nothing, the same response; 304 if its sender has it already, 412 if If-Match is not
+/// satisfied.
 Response unless_known(Response response, const Request& request);
 
-/// The body of a request as JSON. Throws Problem: 400 if it is none, or nested so deep that it can only be meant badly.
+/// The body of a request as JSON. Throws Problem: 400 if it is not JSON, or is nested so deeply that it must be
+/// malicious.
 nlohmann::json json_body(const Request& request);
 
 }  // namespace sheer::http

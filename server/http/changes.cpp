@@ -3,8 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/as_tuple.hpp>
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
 namespace sheer::http {
@@ -14,59 +13,71 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto look_interval = 50ms;
+// Interval of checking whether anybody still waits, and delay after a failure.
+constexpr std::chrono::milliseconds watch_limit = 200ms, pause_after_error = 1s;
 constexpr auto token = asio::as_tuple(asio::use_awaitable);
-
-/// A timer's place among those that wait, also when the wait is cut short.
-class Entry {
-  public:
-    Entry(std::set<asio::steady_timer*>& waiting, asio::steady_timer& timer) : m_waiting(waiting), m_timer(timer) {
-        m_waiting.insert(&m_timer);
-    }
-    Entry(const Entry&) = delete;
-    Entry& operator=(const Entry&) = delete;
-    ~Entry() { m_waiting.erase(&m_timer); }
-
-  private:
-    std::set<asio::steady_timer*>& m_waiting;
-    asio::steady_timer& m_timer;
-};
 
 }  // namespace
 
-Changes::Changes(asio::io_context& io, std::function<std::int64_t()> counter)
-    : m_io(io), m_counter(std::move(counter)) {}
+/// Registers a timer among those that wait, even if the wait is cut short.
+class Changes::Entry {
+  public:
+    Entry(Changes& changes, asio::steady_timer& timer) : m_changes(changes), m_timer(timer) {
+        m_changes.m_waiting.insert(&m_timer);
+        m_changes.count_waiting(1);
+    }
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+    ~Entry() {
+        m_changes.m_waiting.erase(&m_timer);
+        m_changes.count_waiting(-1);
+    }
+
+  private:
+    Changes& m_changes;
+    asio::steady_timer& m_timer;
+};
+
+Changes::Changes(asio::io_context& io, std::unique_ptr<ChangeWatch> store_watch)
+    : m_io(io), m_watch(std::move(store_watch)), m_thread([this](const std::stop_token& stop) { watch(stop); }) {}
 
 asio::awaitable<void> Changes::wait(std::uint64_t seen, std::chrono::milliseconds limit) {
     if (m_stopped || m_generation != seen) co_return;
     asio::steady_timer timer(m_io, limit);
-    const Entry entry(m_waiting, timer);
-    if (!m_watching) {
-        m_watching = true;
-        asio::co_spawn(m_io, watch(), asio::detached);
-    }
+    const Entry entry(*this, timer);
     co_await timer.async_wait(token);
 }
 
-asio::awaitable<void> Changes::watch() {
-    asio::steady_timer timer(m_io);
-    while (!m_waiting.empty()) {
-        look();
-        timer.expires_after(look_interval);
-        co_await timer.async_wait(token);
+void Changes::count_waiting(int more) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_waiting_count += more;
     }
-    m_watching = false;
+    m_wanted.notify_one();
 }
 
-void Changes::look() {
+void Changes::watch(const std::stop_token& stop) {
+    std::unique_lock lock(m_mutex);
+    while (m_wanted.wait(lock, stop, [this] { return m_waiting_count > 0; })) {
+        lock.unlock();
+        const bool looked = look();
+        lock.lock();
+        if (!looked) m_wanted.wait_for(lock, stop, pause_after_error, [] { return false; });
+    }
+}
+
+/// Returns false if the store cannot be watched at the moment. Waiting requests then see the error when they read from
+/// it.
+bool Changes::look() {
+    bool looked = true, changed = true;
     try {
-        const std::int64_t now = m_counter();
-        if (now == m_last) return;
-        m_last = now;
+        changed = m_watch->wait(watch_limit);
     } catch (const std::exception& error) {
         spdlog::error("waiting for changes: {}", error.what());
+        looked = false;
     }
-    wake();
+    if (changed) asio::post(m_io, [this] { wake(); });
+    return looked;
 }
 
 void Changes::wake() {
@@ -77,6 +88,11 @@ void Changes::wake() {
 void Changes::stop() {
     m_stopped = true;
     wake();
+}
+
+void Changes::join() {
+    m_thread.request_stop();
+    if (m_thread.joinable()) m_thread.join();
 }
 
 }  // namespace sheer::http

@@ -1,5 +1,7 @@
 #include "server/http/guard.h"
 
+#include <boost/beast/core/string.hpp>
+
 #include "server/http/preconditions.h"
 #include "server/http/problem.h"
 #include "server/http/text.h"
@@ -9,7 +11,7 @@ namespace sheer::http {
 namespace {
 
 bool is_own_origin(const std::string& origin, const std::string& host) {
-    return equal_ignoring_case(origin, "http://" + host) || equal_ignoring_case(origin, "https://" + host);
+    return boost::beast::iequals(origin, "http://" + host) || boost::beast::iequals(origin, "https://" + host);
 }
 
 }  // namespace
@@ -22,7 +24,7 @@ std::optional<Response> Guard::refusal(const Request& request) const {
     const auto origin = request.headers.find("Origin");
     const auto site = request.headers.find("Sec-Fetch-Site");
     if ((origin && !is_own_origin(*origin, host)) || (site && *site == "cross-site"))
-        return problem(403, "Pages of other sites may not change anything here.");
+        return problem(403, "Pages from other sites may not change anything here.");
     return std::nullopt;
 }
 

@@ -7,16 +7,16 @@
 
 namespace sheer::http {
 
-/// Keeps web pages of other sites from using a service that trusts whoever can reach its port.
+/// Keeps web pages from other sites from using a service that trusts everyone who can reach its port.
 struct Guard {
-    /// Names that a request may ask for in Host; empty allows any. A page whose name was pointed at this machine (DNS
-    /// rebinding) sends its own name.
+    /// Names that a request may have in Host; empty allows any. A page whose name was made to point at this machine
+    /// (DNS rebinding) sends its own name.
     std::set<std::string> hosts;
     /// The problem, or nothing if the request may go on.
     std::optional<Response> refusal(const Request& request) const;
 };
 
-/// On loopback only the names of loopback and those in `allowed`; elsewhere those in `allowed` and loopback, or any if
+/// On loopback, only the names of loopback and those in `allowed`; otherwise those in `allowed` and loopback, or any if
 /// `allowed` is empty.
 Guard make_guard(bool on_loopback, std::set<std::string> allowed);
 

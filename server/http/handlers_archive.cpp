@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "server/archive/blob_store.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
@@ -27,18 +26,18 @@ ListFilter filter_of(const json& query) {
 }
 
 Answer list_reports(Service& service, const Request& request) {
-    const ReportPage page = service.store.list(filter_of(request.query));
-    json body = {{"reports", json::array()}, {"next_cursor", nullptr}};
-    for (const ReportSummary& summary : page.reports) body["reports"].push_back(summary_json(summary));
-    if (page.more) body["next_cursor"] = cursor_after(page.reports.back().id);
-    return json_response(200, body);
+    const ReportPage page = service.store.reports().list(filter_of(request.query));
+    answer::ReportList list{.count = page.count};
+    for (const ReportSummary& summary : page.reports) list.reports.push_back(line_of(summary));
+    if (page.more) list.next_cursor = cursor_after(page.reports.back().id);
+    return json_response(200, to_document(list));
 }
 
 Answer get_blob(Service& service, const Request& request) {
     const std::string sha256 = request.path_values.at("sha256");
-    const auto blob = is_sha256(sha256) ? service.store.find_blob(sha256) : std::nullopt;
+    const auto blob = service.store.blobs().open(sha256);
     if (!blob) throw Problem(404, "There is no such blob.");
-    Response response{.status = 200, .headers = {}, .body = blob->path};
+    Response response{.status = 200, .headers = {}, .body = blob->content};
     response.headers.add("Content-Type", blob->media_type);
     response.headers.add("ETag", fmt::format("\"{}\"", sha256));
     response.headers.add("Cache-Control", "public, max-age=31536000, immutable");
@@ -46,15 +45,15 @@ Answer get_blob(Service& service, const Request& request) {
 }
 
 std::vector<Param> list_query() {
-    Param status{.name = "status", .kind = Param::Kind::choice, .summary = "how far the reports are"};
+    Param status{.name = "status", .kind = Param::Kind::choice, .summary = "status of the reports"};
     status.optional = true;
     for (const Status each : {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled})
         status.choices.emplace_back(status_text(each));
-    return {Param::integer("limit", "how many reports at most", "", 20, 1, 100),
-            Param::text("cursor", "next_cursor of the page before", "", max_text_bytes),
-            Param::text("q", "part of the title or of a tag's value, without regard to case", "", max_text_bytes),
+    return {Param::integer("limit", "greatest number of reports", "", 20, 1, 100),
+            Param::text("cursor", "next_cursor of the previous page", "", max_text_bytes),
+            Param::text("q", "part of the title or of a tag's value; case is ignored", "", max_text_bytes),
             Param::text("tag", "name of a tag, or name:value", "", max_text_bytes),
-            Param::text("method", "id of a method that is compared", "", max_text_bytes),
+            Param::text("method", "id of one of the compared methods", "", max_text_bytes),
             Param::text("scene", "type of the scene", "", max_text_bytes),
             std::move(status)};
 }
@@ -70,12 +69,12 @@ std::vector<Route> archive_routes(Service& service) {
              .replies = {{200, "A page of the list", "application/json", "ReportList"}},
              .handle = [&service](const Request& request) { return list_reports(service, request); }},
             {.method = "GET",
-             .pattern = "/api/v1/blobs/{sha256}",
+             .pattern = std::string(blobs_path) + "/{sha256}",
              .id = "getBlob",
              .summary = "A picture",
-             .headers = {{"If-None-Match", "the ETag of what is there already"}},
+             .headers = {{"If-None-Match", "the ETag of the copy that the client has"}},
              .replies = {{200, "The picture; it never changes", "image/*", ""},
-                         {304, "It is the one that is there already", "", ""},
+                         {304, "The client has it already", "", ""},
                          {404, "There is no such blob", "application/problem+json", "Problem"},
                          {500, "Its bytes are damaged", "application/problem+json", "Problem"}},
              .handle = [&service](const Request& request) { return get_blob(service, request); }}};

@@ -5,23 +5,23 @@
 
 #include "renderer/files/data_uri.h"
 #include "renderer/files/diff.h"
+#include "renderer/files/report_document.h"
 #include "renderer/spec/sweep.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
 #include "server/http/slot.h"
+#include "server/http/text.h"
 
 namespace sheer::http {
 
-using nlohmann::json;
-
 namespace {
 
-constexpr std::size_t max_id_bytes = 200;
-// Of pictures that a request may decode: some ten seconds of work.
+constexpr std::size_t max_id_bytes = 200, max_allow_bytes = 4000;
+// Limit on the pixels that a request may decode: some ten seconds of work.
 constexpr std::uint64_t max_pixels = 64'000'000;
 
-/// Pictures of a diff are in its text: nobody would collect them from the archive.
+/// The pictures of a diff are part of its text: in the archive, nothing would ever delete them.
 class InlineSink : public BlobSink {
     std::string put(const std::string&, const std::string& bytes, const std::string&,
                     const std::string& media_type) override {
@@ -29,21 +29,47 @@ class InlineSink : public BlobSink {
     }
 };
 
+std::vector<std::string> allowed_pointers(const std::string& text) {
+    std::vector<std::string> pointers;
+    if (text.empty()) return pointers;
+    for (const std::string_view pointer : split(text, ',')) pointers.emplace_back(pointer);
+    return pointers;
+}
+
+Problem problem_of(const DiffConflict& conflict) {
+    const std::string refusal = "The reports cannot be compared with each other";
+    const auto& allow = conflict.allowable();
+    if (allow.empty()) return {422, refusal + ".", conflict.errors()};
+    return Problem(422, fmt::format("{}; to compare them nevertheless, allow {}", refusal, fmt::join(allow, ", ")),
+                   conflict.errors())
+        .with_allowable(allow);
+}
+
+report::Report comparable_report(Store& store, const std::string& id) {
+    report::Report report = done_report(store, id);
+    use_stored(id, [&] { check_comparable(report); });
+    return report;
+}
+
 Answer get_diff(Service& service, std::atomic<int>& diffs, const Request& request) {
-    const json a = done_report_json(service.store, request.path_values.at("id"));
-    const json b = done_report_json(service.store, request.query["against"]);
-    const auto read_picture = [&service](const json& image) { return picture_bytes(service.store, image); };
+    const report::Report a = comparable_report(service.store, request.path_values.at("id"));
+    const report::Report b = comparable_report(service.store, request.query["against"]);
+    const auto read_picture = [&service](const report::Picture& picture) {
+        return picture_bytes(service.store, picture);
+    };
     InlineSink sink;
-    DiffOptions options{.max_pixels = max_pixels};
+    DiffOptions options{.max_pixels = max_pixels, .allow = allowed_pointers(request.query["allow"])};
     if (request.query["run"].is_number()) {
         options.run = request.query["run"].get<std::size_t>();
         options.pictures = &sink;
     }
-    const Slot slot(diffs, service.max_diffs, "Other reports are being compared; come again.");
+    const Slot slot(diffs, service.limits.max_diffs, "Other reports are being compared; try again later.");
     try {
-        return json_response(200, diff_reports({a, read_picture}, {b, read_picture}, options));
+        return json_response(200, to_document(diff_reports({a, read_picture}, {b, read_picture}, options)));
+    } catch (const DiffConflict& conflict) {
+        throw problem_of(conflict);
     } catch (const SpecError& wrong) {
-        throw Problem(422, "The reports cannot be held against each other.", wrong.errors());
+        throw Problem(422, "The reports cannot be compared with each other.", wrong.errors());
     }
 }
 
@@ -51,22 +77,25 @@ Answer get_diff(Service& service, std::atomic<int>& diffs, const Request& reques
 
 std::vector<Route> diff_routes(Service& service) {
     auto diffs = std::make_shared<std::atomic<int>>(0);
-    Param run = Param::integer("run", "only this run of those that both have, with its FLIP maps as data: URIs", "", 0,
-                               0, static_cast<double>(max_sweep_points) - 1);
+    Param run = Param::integer("run", "only this one of the common runs, with its FLIP maps as data: URIs", "", 0, 0,
+                               static_cast<double>(max_sweep_points) - 1);
     run.default_value = nullptr;
     run.optional = true;
     return {{.method = "GET",
              .pattern = std::string(reports_path) + "/{id}/diff",
              .id = "diffReports",
-             .summary = "What changed from a done report to another one of the same spec, in pictures and in time",
-             .query = {Param::text("against", "id of the report that came after", "", max_id_bytes).required(),
-                       std::move(run)},
+             .summary = "What changed between two done reports of the same spec, in pictures and in time",
+             .query = {Param::text("against", "id of the later report", "", max_id_bytes).required(), std::move(run),
+                       Param::text("allow",
+                                   "JSON pointers into the spec, separated by commas, such as /scene/shading/glsl: the "
+                                   "fields there and below may differ",
+                                   "", max_allow_bytes)},
              .replies = {{200, "What changed", "application/json", "Diff"},
                          {404, "There is no such report", "application/problem+json", "Problem"},
                          {409, "A report is not done", "application/problem+json", "Problem"},
-                         {422, "The reports are of different specs; `errors` names the fields",
+                         {422, "The reports have different specs; `errors` names the fields, `allow` what to allow",
                           "application/problem+json", "Problem"},
-                         {429, "Other reports are being compared; Retry-After says when to come again",
+                         {429, "Other reports are being compared; Retry-After says when to try again",
                           "application/problem+json", "Problem"}},
              .handle = [&service, diffs](const Request& request) { return get_diff(service, *diffs, request); }}};
 }

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "embedded_web.h"
-#include "renderer/report/report.h"
+#include "renderer/core/sha256.h"
 #include "server/http/service.h"
 
 namespace sheer::http {
@@ -22,6 +22,7 @@ std::string media_type_of_path(std::string_view path) {
                                                                {"json", "application/json"},
                                                                {"svg", "image/svg+xml"},
                                                                {"png", "image/png"},
+                                                               {"jpg", "image/jpeg"},
                                                                {"ico", "image/x-icon"},
                                                                {"woff2", "font/woff2"},
                                                                {"txt", "text/plain; charset=utf-8"}};

@@ -11,11 +11,11 @@
 
 namespace sheer::http {
 
-using nlohmann::json;
+using Removal = ReportArchive::Removal;
 
 namespace {
 
-// The page carries its own style, scripts and pictures; the sandbox keeps it from acting under the service's origin.
+// The page contains its style, scripts and pictures; the sandbox keeps it from acting with the service's origin.
 constexpr const char* page_policy =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' data:; "
     "frame-ancestors 'self'; "
@@ -25,14 +25,12 @@ ReportRecord found_report(Service& service, const Request& request) {
     return found_report(service.store, request);
 }
 
-json finished_report(Service& service, const Request& request) {
-    return done_report_json(service.store, request.path_values.at("id"));
-}
-
 Answer get_html(Service& service, const Request& request) {
-    const auto read_picture = [&service](const json& image) { return picture_bytes(service.store, image); };
-    Response response =
-        text_response(200, report_html(finished_report(service, request), read_picture), "text/html; charset=utf-8");
+    const report::Report report = done_report(service.store, request.path_values.at("id"));
+    const auto read_picture = [&service](const report::Picture& picture) {
+        return picture_bytes(service.store, picture);
+    };
+    Response response = text_response(200, report_html(report, read_picture), "text/html; charset=utf-8");
     response.headers.add("Content-Security-Policy", page_policy);
     return response;
 }
@@ -40,20 +38,20 @@ Answer get_html(Service& service, const Request& request) {
 Answer get_junit(Service& service, const Request& request) {
     const ReportRecord record = found_report(service, request);
     if (!is_final(record.status))
-        throw Problem(409, fmt::format("The report is not over: it is {}.", status_text(record.status)));
-    return text_response(200, report_junit(json::parse(report_text(record))), "application/xml");
+        throw Problem(409, fmt::format("The report has not ended: it is {}.", status_text(record.status)));
+    return text_response(200, report_junit(report_of(record)), "application/xml");
 }
 
 Answer delete_report(Service& service, const Request& request) {
     const std::string id = request.path_values.at("id");
-    switch (service.store.remove(id)) {
-        case RemoveResult::not_found:
+    switch (service.store.reports().remove(id)) {
+        case Removal::not_found:
             break;
-        case RemoveResult::deleted:
+        case Removal::deleted:
             return Response{.status = 204, .headers = {}, .body = {}};
-        case RemoveResult::cancelled:
+        case Removal::cancelled:
             return report_response(200, found_report(service, request));
-        case RemoveResult::cancelling:
+        case Removal::cancelling:
             return report_response(202, found_report(service, request));
     }
     throw Problem(404, "There is no such report.");
@@ -66,17 +64,17 @@ std::int64_t last_event_id(const Request& request) {
     return id;
 }
 
-/// The events say how things are, not how they came to be: their ids are revisions, and a reader that was away gets one
-/// event for all it missed.
+/// Events describe the current state, not its history: their ids are revisions, and a client that was disconnected gets
+/// one event for all it missed.
 Answer get_events(Service& service, const Request& request) {
     const ReportRecord record = found_report(service, request);
     const std::int64_t last_id = last_event_id(request);
-    // This tells an EventSource not to come again.
+    // This tells an EventSource not to reconnect.
     if (is_final(record.status) && record.revision <= last_id)
         return Response{.status = 204, .headers = {}, .body = {}};
     EventStream stream{.head = text_response(200, "", "text/event-stream")};
     stream.next = [&service, id = record.id, sent = last_id]() mutable -> EventChunk {
-        const auto now = service.store.find(id);
+        const auto now = service.store.reports().find(id);
         if (!now) return {.text = "", .last = true};
         if (now->revision == sent) return {};
         sent = now->revision;
@@ -102,22 +100,22 @@ std::vector<Route> report_routes(Service& service) {
     const Reply not_done{409, "The report is not done", "application/problem+json", "Problem"};
     Route events =
         route("GET", "/events", "getReportEvents", "Progress as server-sent events, then done, failed or cancelled",
-              {{200, "The events; their ids are revisions of the report", "text/event-stream", ""},
+              {{200, "The events, whose ids are revisions of the report", "text/event-stream", "ReportEvent"},
                {204, "There is nothing after Last-Event-ID, and nothing will come", "", ""}},
               [&service](const Request& request) { return get_events(service, request); });
     Route remove =
-        route("DELETE", "", "deleteReport", "Cancel a queued or running report, delete one that is over",
-              {{412, "It is not as If-Match or If-None-Match wants it", "application/problem+json", "Problem"},
-               {200, "It was queued and is cancelled", "application/json", "Report"},
-               {202, "It is running and will be cancelled", "application/json", "Report"},
-               {204, "It was over and is deleted", "", ""}},
+        route("DELETE", "", "deleteReport", "Cancel a queued or running report, or delete one that has ended",
+              {{412, "If-Match or If-None-Match is not satisfied", "application/problem+json", "Problem"},
+               {200, "It was queued and is cancelled", "application/json", "AnyReport"},
+               {202, "It is running and will be cancelled", "application/json", "AnyReport"},
+               {204, "It had ended and is deleted", "", ""}},
               [&service](const Request& request) { return delete_report(service, request); });
-    remove.headers = {{"If-Match", "the ETag of the report that is meant"}};
+    remove.headers = {{"If-Match", "the expected ETag of the report"}};
     remove.etag = [&service](const Request& request) { return report_etag(found_report(service, request)); };
-    events.headers = {{"Last-Event-ID", "the last event that was seen"}};
+    events.headers = {{"Last-Event-ID", "the id of the last event that the client received"}};
     return {
-        route("GET", "", "getReport", "A report, also while it is queued or running",
-              {{200, "The report", "application/json", "Report"}},
+        route("GET", "", "getReport", "A report, even while it is queued or running",
+              {{200, "The report", "application/json", "AnyReport"}},
               [&service](const Request& request) { return report_response(200, found_report(service, request)); }),
         std::move(events),
         route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
@@ -126,7 +124,7 @@ std::vector<Route> report_routes(Service& service) {
         route("GET", "/junit.xml", "getReportJunit",
               "The checks of a report as JUnit XML; one that failed or was cancelled has an <error>",
               {{200, "The checks", "application/xml", ""},
-               {409, "The report is not over", "application/problem+json", "Problem"}},
+               {409, "The report has not ended", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return get_junit(service, request); }),
         std::move(remove),
     };

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "renderer/report/report.h"
-#include "renderer/spec/param.h"
+#include "renderer/core/sha256.h"
+#include "renderer/params/param.h"
 #include "renderer/spec/spec.h"
-#include "server/archive/blob_store.h"
 #include "server/http/application.h"
+#include "server/http/paths.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
@@ -17,7 +17,7 @@ namespace sheer::http {
 namespace {
 
 constexpr std::size_t max_key_bytes = 255;
-// How long a caller should leave a full queue alone, and one that renders.
+// When a client should try again if the queue is full, and while the report is rendered.
 constexpr const char* retry_full_queue_s = "10";
 constexpr const char* retry_report_s = "1";
 
@@ -29,16 +29,16 @@ std::optional<IdempotencyKey> idempotency_key(const Request& request, const nloh
     return IdempotencyKey{*key, sha256_hex(document.dump())};
 }
 
-/// Over HTTP a file is an uploaded one, never a path.
+/// Over HTTP a file is always an uploaded one, never a path.
 AssetRule asset_rule(Service& service) {
     return [&service](const AssetReference& reference) -> std::string {
         if (!is_sha256(reference.name))
             return fmt::format("must be a built-in name or the SHA-256 of an uploaded {}, in 64 lower-case hex digits",
                                reference.type);
-        const auto asset = service.store.find_asset(reference.name);
-        if (!asset) return "there is no asset with this SHA-256; POST /api/v1/assets takes one";
+        const auto asset = service.store.assets().find(reference.name);
+        if (!asset) return fmt::format("there is no asset with this SHA-256; upload it with POST {}", assets_path);
         if (!asset->broken.empty())
-            return fmt::format("this asset is damaged, {}; POST /api/v1/assets takes it again", asset->broken);
+            return fmt::format("this asset is damaged, {}; upload it again with POST {}", asset->broken, assets_path);
         if (asset->type != reference.type)
             return fmt::format("this asset is a {} ({}), not a {}", asset->type, asset->media_type, reference.type);
         return "";
@@ -51,13 +51,13 @@ ReportRecord submit(Service& service, const Request& request) {
     NewReport report{.id = service.ids.next(), .spec = spec.canonical_text()};
     report.spec_sha256 = sha256_hex(report.spec);
     report.idempotency = idempotency_key(request, document);
-    const SubmitResult result = service.store.submit(report, service.max_queued);
+    const SubmitResult result = service.store.queue().submit(report, service.limits.max_queued);
     if (result.outcome == SubmitResult::Outcome::queue_full)
-        throw Problem(429, fmt::format("{} comparisons wait already.", service.max_queued))
+        throw Problem(429, fmt::format("{} comparisons are already waiting.", service.limits.max_queued))
             .with("Retry-After", retry_full_queue_s);
     if (result.outcome == SubmitResult::Outcome::key_reused)
-        throw Problem(422, "This Idempotency-Key was used for another spec.");
-    const auto record = service.store.find(result.id);
+        throw Problem(422, "This Idempotency-Key was used with another spec.");
+    const auto record = service.store.reports().find(result.id);
     if (!record) throw Problem(409, "The report was deleted in the meantime.");
     return *record;
 }
@@ -70,7 +70,7 @@ Response accepted(const ReportRecord& record) {
 }
 
 std::optional<Response> if_final(Service& service, const std::string& id) {
-    const auto record = service.store.find(id);
+    const auto record = service.store.reports().find(id);
     if (!record) throw Problem(404, "The report was deleted in the meantime.");
     if (!is_final(record->status)) return std::nullopt;
     Response response = report_response(200, *record);
@@ -82,7 +82,7 @@ Answer post_report(Service& service, const Request& request) {
     const ReportRecord record = submit(service, request);
     const auto wait_s = preferred_wait_s(request.headers.find("Prefer").value_or(""));
     if (!wait_s) return accepted(record);
-    const auto limit = std::min(std::chrono::seconds(*wait_s), service.max_wait);
+    const auto limit = std::min(std::chrono::seconds(*wait_s), service.limits.max_wait);
     const auto applied = [limit](Response response) {
         response.headers.add("Preference-Applied", fmt::format("wait={}", limit.count()));
         return response;
@@ -94,7 +94,7 @@ Answer post_report(Service& service, const Request& request) {
         return response;
     };
     waiting.otherwise = [&service, record, applied] {
-        return applied(accepted(service.store.find(record.id).value_or(record)));
+        return applied(accepted(service.store.reports().find(record.id).value_or(record)));
     };
     return waiting;
 }
@@ -115,12 +115,12 @@ std::vector<Route> submit_routes(Service& service) {
          .id = "createReport",
          .summary = "Queue a comparison",
          .headers = {{"Prefer", "wait=N: answer with the finished report if it is ready within N seconds"},
-                     {"Idempotency-Key", "the same key with the same spec gives the same report again"}},
+                     {"Idempotency-Key", "the same key with the same spec returns the same report"}},
          .body_schema = "Spec",
-         .replies = {{202, "Queued; Location says where the report will be", "application/json", "Report"},
-                     {200, "Finished within the time that Prefer gave", "application/json", "Report"},
+         .replies = {{202, "Queued; Location is the address of the report", "application/json", "AnyReport"},
+                     {200, "Finished within the time that Prefer gave", "application/json", "AnyReport"},
                      bad_spec,
-                     {429, "The queue is full; Retry-After says when to come again", "application/problem+json",
+                     {429, "The queue is full; Retry-After says when to try again", "application/problem+json",
                       "Problem"},
                      {507, "There is no room for reports", "application/problem+json", "Problem"}},
          .handle = [&service](const Request& request) { return post_report(service, request); },
@@ -130,7 +130,7 @@ std::vector<Route> submit_routes(Service& service) {
          .id = "validateSpec",
          .summary = "Check a spec and fill in its defaults",
          .body_schema = "Spec",
-         .replies = {{200, "The normalised spec", "application/json", "Spec"}, bad_spec},
+         .replies = {{200, "The normalised spec", "application/json", "NormalisedSpec"}, bad_spec},
          .handle = [&service](const Request& request) { return validate_spec(service, request); },
          .lane = Lane::specs},
     };

@@ -6,12 +6,12 @@
 
 namespace sheer::http {
 
-/// Counts the answers that last: streams of events, and requests that wait for a report. Each holds a connection for as
-/// long as its client likes, so one client gets some only, and all together leave connections for others.
+/// Counts long-lived answers: streams of events, and requests that wait for a report. Each occupies a connection for as
+/// long as its client likes, so each client gets only a few, and all together leave connections for others.
 class LastingAnswers {
   public:
     explicit LastingAnswers(const Limits& limits);
-    /// Whether one more may begin for this client; `end` must follow if so.
+    /// Whether one more may begin for this client; if so, `end` must follow.
     bool begin(const std::string& client);
     void end(const std::string& client);
 
@@ -21,7 +21,7 @@ class LastingAnswers {
     std::map<std::string, int> m_by_client;
 };
 
-/// The count of an answer that lasts, if it may.
+/// Counts a long-lived answer, if it is allowed.
 class Lasting {
   public:
     Lasting(LastingAnswers& answers, const std::string& client)

@@ -1,6 +1,5 @@
 #pragma once
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,9 +10,11 @@
 #include <variant>
 #include <vector>
 
+#include "server/jobs/content.h"
+
 namespace sheer::http {
 
-/// Header fields in their order; names match without regard to case.
+/// Header fields in order; the case of names is ignored.
 class Headers {
   public:
     void add(std::string name, std::string value) { m_fields.emplace_back(std::move(name), std::move(value)); }
@@ -23,7 +24,7 @@ class Headers {
     /// The values of all fields of this name as one list (RFC 9110, 5.3), or nothing.
     std::optional<std::string> joined(std::string_view name) const;
     std::size_t count(std::string_view name) const;
-    /// In place of all fields of this name.
+    /// Replaces all fields of this name.
     void set(std::string_view name, std::string value);
     const std::vector<std::pair<std::string, std::string>>& fields() const { return m_fields; }
 
@@ -31,18 +32,18 @@ class Headers {
     std::vector<std::pair<std::string, std::string>> m_fields;
 };
 
-/// Who makes an answer. What only says that the service lives shares nothing with those who work.
+/// The threads that make an answer. Answers that only say that the service is alive share no threads with work.
 enum class Lane {
-    at_once,  ///< the thread of the connections: nothing that waits for anything
+    at_once,  ///< the thread of the connections: only for work that never waits
     pool,     ///< the threads for answers
-    specs     ///< threads of their own for specs: to check one can take seconds
+    specs     ///< separate threads for specs, since checking one can take seconds
 };
 
-/// How a request is treated, as far as its method and target say.
+/// How a request is treated, based on its method and target.
 struct Handling {
     std::optional<std::uint64_t> body_bytes;  ///< the longest body, or nothing for the general limit
     Lane lane = Lane::pool;
-    bool is_probe = false;  ///< answered also where there is no room for anything else
+    bool is_probe = false;  ///< answered even if there is no room for anything else
 };
 
 struct Request {
@@ -50,23 +51,24 @@ struct Request {
     std::string target;  ///< path and query, as sent
     Headers headers;
     std::string body;
-    std::map<std::string, std::string> path_values;   ///< of the route's {names}, decoded
-    nlohmann::json query = nlohmann::json::object();  ///< as the route describes it, checked, defaults filled in
+    std::map<std::string, std::string> path_values;  ///< of the route's {names}, decoded
+    nlohmann::json query =
+        nlohmann::json::object();  ///< checked against the route's description, with defaults filled in
 };
 
 struct Response {
     int status = 200;
     Headers headers;
-    /// The bytes, or the file that holds them.
-    std::variant<std::string, std::filesystem::path> body;
+    /// The bytes, or the object that holds them.
+    std::variant<std::string, ContentPtr> body;
 };
 
-/// A response that is given when it is ready. Both functions run on the pool; `ready` is asked again after each change
+/// A response that is sent when it is ready. Both functions run on the pool; `ready` is called again after each change
 /// in the store.
 struct Waiting {
     std::chrono::milliseconds limit{};
     std::function<std::optional<Response>()> ready;
-    std::function<Response()> otherwise;  ///< when the limit has passed or the service stops
+    std::function<Response()> otherwise;  ///< if the limit has passed or the service stops
 };
 
 struct EventChunk {

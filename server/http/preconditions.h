@@ -10,7 +10,7 @@ bool is_safe(const std::string& method);
 
 enum class Precondition { met, failed, not_modified };
 
-/// What If-Match and If-None-Match say of a target that is there and has this ETag, "" for none (RFC 9110, 13).
+/// Evaluates If-Match and If-None-Match for an existing target with this ETag, "" for none (RFC 9110, 13).
 /// `not_modified` only for GET and HEAD; for other methods that is a failure.
 Precondition judge_preconditions(const Request& request, const std::string& etag);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "renderer/params/json_text.h"
+#include "server/http/answers.h"
+
 namespace sheer::http {
 
 using nlohmann::json;
@@ -36,19 +39,19 @@ const char* status_phrase(int status) {
     return found == phrases.end() ? "Unknown" : found->second;
 }
 
-Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors,
-                 std::size_t error_count) {
-    json body = {{"type", "about:blank"}, {"title", status_phrase(status)}, {"status", status}, {"detail", detail}};
+Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors, std::size_t error_count,
+                 const std::vector<std::string>& allow) {
+    answer::Problem body{.title = status_phrase(status), .status = status, .detail = detail, .allow = allow};
     for (const FieldError& error : errors) {
-        if (body["errors"].size() == max_told_errors) break;
-        body["errors"].push_back({{"pointer", error.pointer}, {"detail", error.detail}});
+        if (body.errors.size() == max_told_errors) break;
+        body.errors.push_back({error.pointer, error.detail});
     }
-    if (!errors.empty()) body["error_count"] = std::max(error_count, errors.size());
-    return text_response(status, body.dump(-1, ' ', false, json::error_handler_t::replace), "application/problem+json");
+    if (!errors.empty()) body.error_count = std::max(error_count, errors.size());
+    return text_response(status, json_line(to_document(body)), "application/problem+json");
 }
 
 Response Problem::response() const {
-    Response response = problem(m_status, what(), m_errors);
+    Response response = problem(m_status, what(), m_errors, 0, m_allow);
     for (const auto& [name, value] : m_headers) response.headers.add(name, value);
     return response;
 }

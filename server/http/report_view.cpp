@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "server/archive/blob_store.h"
+#include "renderer/core/clock.h"
 #include "server/http/problem.h"
 #include "server/http/service.h"
-#include "server/jobs/clock.h"
+#include "server/jobs/limits.h"
 
 namespace sheer::http {
 
@@ -13,76 +13,91 @@ using nlohmann::json;
 
 namespace {
 
-json error_json(const std::optional<JobError>& error) {
-    if (!error) return nullptr;
-    return {{"title", error->title}, {"detail", error->detail}};
+/// The status as reports write it.
+report::Status written(Status status) {
+    return from_document<report::Status>(std::string(status_text(status)));
 }
 
-json time_json(const std::optional<std::int64_t>& time_ms) {
-    if (!time_ms) return nullptr;
-    return utc_text(*time_ms);
+std::optional<report::Error> written(const std::optional<JobError>& error) {
+    if (!error) return std::nullopt;
+    return report::Error{error->title, error->detail};
+}
+
+/// "" for none.
+std::string written(const std::optional<std::int64_t>& time_ms) {
+    return time_ms ? utc_text(*time_ms) : "";
 }
 
 }  // namespace
 
 ReportRecord found_report(Store& store, const Request& request) {
-    auto record = store.find(request.path_values.at("id"));
+    auto record = store.reports().find(request.path_values.at("id"));
     if (!record) throw Problem(404, "There is no such report.");
     return std::move(*record);
 }
 
 json stored_json(const std::string& text, const std::string& what) {
     json value = json::parse(text, nullptr, false);
-    if (!value.is_object()) throw DamagedFile(what + " is not JSON");
+    if (!value.is_object()) throw DamagedData(what + " is not JSON");
     return value;
 }
 
 std::string report_text(const ReportRecord& record) {
     if (record.status == Status::done) return record.report;
-    const json view = {{"id", record.id},
-                       {"status", status_text(record.status)},
-                       {"progress", record.progress},
-                       {"stage", record.stage},
-                       {"error", error_json(record.error)},
-                       {"created_at", utc_text(record.created_ms)},
-                       {"finished_at", time_json(record.finished_ms)},
-                       {"spec", stored_json(record.spec, "the spec of report " + record.id)},
-                       {"spec_sha256", record.spec_sha256}};
-    return view.dump();
+    report::UnfinishedReport view;
+    view.id = record.id;
+    view.status = written(record.status);
+    view.progress = record.progress;
+    view.error = written(record.error);
+    view.created_at = utc_text(record.created_ms);
+    view.finished_at = written(record.finished_ms);
+    view.spec_sha256 = record.spec_sha256;
+    view.spec = stored_json(record.spec, "the spec of report " + record.id);
+    view.stage = record.stage;
+    return to_document(view).dump();
 }
 
-json summary_json(const ReportSummary& summary) {
-    json line = {{"id", summary.id},
-                 {"url", fmt::format("{}/{}", reports_path, summary.id)},
-                 {"status", status_text(summary.status)},
-                 {"progress", summary.progress},
-                 {"error", error_json(summary.error)},
-                 {"created_at", utc_text(summary.created_ms)},
-                 {"finished_at", time_json(summary.finished_ms)},
-                 {"title", summary.title},
-                 {"tags", summary.tags},
-                 {"scene", summary.scene},
-                 {"methods", summary.methods},
-                 {"spec_sha256", summary.spec_sha256},
-                 {"verdict", summary.verdict.empty() ? json() : json(summary.verdict)},
-                 {"preview", summary.preview}};
-    if (!summary.broken.empty()) line["broken"] = summary.broken;
+answer::ReportLine line_of(const ReportSummary& summary) {
+    answer::ReportLine line;
+    line.id = summary.id;
+    line.status = written(summary.status);
+    line.progress = summary.progress;
+    line.error = written(summary.error);
+    line.url = fmt::format("{}/{}", reports_path, summary.id);
+    line.created_at = utc_text(summary.created_ms);
+    line.finished_at = written(summary.finished_ms);
+    line.title = summary.title;
+    line.scene = summary.scene;
+    line.tags = summary.tags;
+    line.methods = summary.methods;
+    line.spec_sha256 = summary.spec_sha256;
+    if (!summary.verdict.empty()) line.verdict = summary.verdict;
+    line.preview = summary.preview;
+    line.broken = summary.broken;
     return line;
 }
 
-std::string picture_bytes(Store& store, const json& image) {
-    const auto sha256 = image.at("sha256").get<std::string>();
-    const auto blob = store.find_blob(sha256);
-    if (!blob) throw DamagedFile(fmt::format("the picture {} is missing", sha256));
-    return read_file(blob->path, max_picture_bytes);
+std::string picture_bytes(Store& store, const report::Picture& picture) {
+    const auto blob = store.blobs().open(picture.sha256);
+    if (!blob) throw DamagedData(fmt::format("the picture {} is missing", picture.sha256));
+    return read_all(*blob->content, max_picture_bytes);
 }
 
-json done_report_json(Store& store, const std::string& id) {
-    const auto record = store.find(id);
+report::Report report_of(const ReportRecord& record) {
+    const std::string what = "the report " + record.id;
+    try {
+        return from_document<report::Report>(stored_json(report_text(record), what));
+    } catch (const DocumentError& wrong) {
+        throw DamagedData(fmt::format("{}: {}", what, wrong.what()));
+    }
+}
+
+report::Report done_report(Store& store, const std::string& id) {
+    const auto record = store.reports().find(id);
     if (!record) throw Problem(404, fmt::format("There is no report \"{}\".", id));
     if (record->status != Status::done)
         throw Problem(409, fmt::format("The report {} is not done: it is {}.", id, status_text(record->status)));
-    return stored_json(record->report, "the report " + id);
+    return report_of(*record);
 }
 
 std::string event_name(Status status) {
@@ -90,11 +105,13 @@ std::string event_name(Status status) {
 }
 
 json event_json(const ReportRecord& record) {
-    return {{"id", record.id},
-            {"status", status_text(record.status)},
-            {"progress", record.progress},
-            {"stage", record.stage},
-            {"error", error_json(record.error)}};
+    answer::Event event;
+    event.id = record.id;
+    event.status = written(record.status);
+    event.progress = record.progress;
+    event.error = written(record.error);
+    event.stage = record.stage;
+    return to_document(event);
 }
 
 std::string report_etag(const ReportRecord& record) {

@@ -14,25 +14,24 @@ using nlohmann::json;
 
 namespace {
 
+using Segments = std::vector<std::string>;
+
 /// The values of the {names}, or nothing if the path does not fit.
-std::optional<std::map<std::string, std::string>> fit(std::string_view pattern, std::string_view path) {
-    const auto wanted = split(pattern, '/'), given = split(path, '/');
-    if (wanted.size() != given.size()) return std::nullopt;
+std::optional<std::map<std::string, std::string>> fit(const Segments& pattern, const Segments& path) {
+    if (pattern.size() != path.size()) return std::nullopt;
     std::map<std::string, std::string> values;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const auto decoded = percent_decoded(given[i], false);
-        if (!decoded) return std::nullopt;
-        if (wanted[i].starts_with('{')) {
-            if (decoded->empty()) return std::nullopt;
-            values[std::string(wanted[i].substr(1, wanted[i].size() - 2))] = *decoded;
-        } else if (*decoded != wanted[i]) {
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        if (pattern[i].starts_with('{')) {
+            if (path[i].empty()) return std::nullopt;
+            values[pattern[i].substr(1, pattern[i].size() - 2)] = path[i];
+        } else if (path[i] != pattern[i]) {
             return std::nullopt;
         }
     }
     return values;
 }
 
-/// A query holds texts; what reads as a whole number is one where a number is wanted.
+/// The values of a query are texts; if a number is expected, a text that reads as a whole number is one.
 json typed(const std::string& text, const std::vector<Param>& fields, const std::string& name) {
     const auto field = std::ranges::find(fields, name, &Param::name);
     if (field == fields.end() || field->kind != Param::Kind::integer) return text;
@@ -50,9 +49,11 @@ void Router::add(std::vector<Route> routes) {
 
 Match Router::match(std::string_view method, std::string_view path) const {
     Match match;
+    const auto segments = path_segments(path);
+    if (!segments) return match;
     const std::string_view wanted = method == "HEAD" ? "GET" : method;
     for (const Route& route : m_routes) {
-        auto values = fit(route.pattern, path);
+        auto values = fit(*path_segments(route.pattern), *segments);
         if (!values) continue;
         match.allowed.push_back(route.method);
         if (route.method == "GET") match.allowed.emplace_back("HEAD");
@@ -66,11 +67,11 @@ Match Router::match(std::string_view method, std::string_view path) const {
 
 json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status) {
     const auto pairs = query_pairs(query);
-    if (!pairs) throw Problem(400, "The query has a broken percent escape.");
+    if (!pairs) throw Problem(400, "The query has a malformed percent escape.");
     json values = json::object();
     std::vector<FieldError> errors;
     for (const auto& [name, text] : *pairs) {
-        if (values.contains(name)) errors.push_back({fmt::format("/{}", pointer_token(name)), "is given twice"});
+        if (values.contains(name)) errors.push_back({(json::json_pointer() / name).to_string(), "is given twice"});
         values[name] = typed(text, fields, name);
     }
     json read_values = read_fields(values, "", fields, errors);

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/spec/param.h"
+#include "renderer/params/param.h"
 #include "server/http/message.h"
 
 namespace sheer::http {
@@ -33,23 +33,23 @@ struct Route {
     std::string summary;
     std::vector<Param> query;
     std::vector<HeaderField> headers;
-    std::string body_schema;  ///< component that the JSON body must fit; "" for no JSON body
+    std::string body_schema;  ///< component that the JSON body must match; "" for no JSON body
     std::vector<Reply> replies;
     Handler handle;
     std::vector<std::string> body_types;  ///< media types of a body that is not JSON
-    std::uint64_t body_bytes = 0;         ///< longest body; 0: what the service allows any
+    std::uint64_t body_bytes = 0;         ///< longest body; 0 for the service's general limit
     Lane lane = Lane::pool;
-    bool is_probe = false;  ///< asked by machines that know only an address: answered for any Host
-    /// The ETag that the target has now; throws Problem (404) if it is not there. Only of calls that change something:
-    /// it is what their preconditions are held against.
+    bool is_probe = false;  ///< sent by machines that know only an address, so it is answered for any Host
+    /// The current ETag of the target; throws Problem (404) if there is no such target. Only for calls that change
+    /// something: their preconditions are compared with it.
     std::function<std::string(const Request&)> etag;
-    int wrong_query_status = 400;  ///< what a query with wrong, missing or unknown fields is answered with
+    int wrong_query_status = 400;  ///< status of the answer to a query with wrong, missing or unknown fields
 };
 
 struct Match {
-    const Route* route = nullptr;                    ///< null if none answers
+    const Route* route = nullptr;                    ///< null if none matches
     std::map<std::string, std::string> path_values;  ///< decoded
-    std::vector<std::string> allowed;                ///< methods that the path knows; empty if there is no such path
+    std::vector<std::string> allowed;                ///< methods that the path supports; empty if there is no such path
 };
 
 class Router {
@@ -62,8 +62,8 @@ class Router {
     std::vector<Route> m_routes;
 };
 
-/// Reads `query` as `fields` describe it; numbers are given as text. Throws Problem (`wrong_status`) that names every
-/// wrong field, or Problem (400) if it cannot be read at all.
+/// Reads `query` as `fields` describe it; numbers are given as text. Throws Problem (`wrong_status`) with every wrong
+/// field, or Problem (400) if it cannot be read at all.
 nlohmann::json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status = 400);
 
 }  // namespace sheer::http

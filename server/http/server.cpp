@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr auto token = asio::as_tuple(asio::use_awaitable);
-// Connections beyond the limit. They are for probes, which ask one thing and go.
+// Connections beyond the limit. They are for probes, which ask one question and end.
 constexpr std::ptrdiff_t spare_seats = 8;
 
 tcp::endpoint tcp_endpoint(const Endpoint& endpoint) {
@@ -70,7 +70,7 @@ class Server::Impl {
     Impl(const Endpoint& endpoint, const Limits& limits, Hooks hooks)
         : m_limits(limits),
           m_reload(std::move(hooks.reload)),
-          m_changes(m_io, std::move(hooks.change_counter)),
+          m_changes(m_io, std::move(hooks.changes)),
           m_context{.limits = m_limits,
                     .answer = std::move(hooks.answer),
                     .handling = std::move(hooks.handling),
@@ -90,7 +90,8 @@ class Server::Impl {
           m_stop_timer(m_io) {}
 
     ~Impl() {
-        // Connections that were cut short end with m_io, after the timer and the signals.
+        m_changes.join();
+        // Interrupted connections end with m_io, after the timer and the signals.
         m_context.on_end = [] {};
     }
 
@@ -106,8 +107,9 @@ class Server::Impl {
             if (!error) stop();
         });
         m_io.run();
+        m_changes.join();
         m_pool.join();
-        // Nobody is left who waits for the specs that no thread has begun.
+        // Nobody waits any longer for the specs that no thread has started to check.
         m_spec_pool.stop();
         m_spec_pool.join();
     }
@@ -127,7 +129,7 @@ class Server::Impl {
             if (error == asio::error::operation_aborted || m_context.stopping) co_return;
             if (error) {
                 spdlog::warn("a connection cannot be accepted: {}", error.message());
-                // Out of descriptors, most likely: it needs time, not tries.
+                // Most likely there are no free descriptors: retrying at once would not help.
                 asio::steady_timer pause(m_io, 100ms);
                 co_await pause.async_wait(token);
                 continue;
@@ -137,7 +139,7 @@ class Server::Impl {
         }
     }
 
-    /// Where everything is taken, whoever waits for a request makes room.
+    /// If all connections are in use, one that waits for a request is closed to make room.
     Seat free_seat() {
         const auto taken = [this](Seat seat) {
             return std::ranges::count_if(m_context.sessions, [&](const Session* session) {
@@ -183,7 +185,7 @@ class Server::Impl {
 
     const Limits m_limits;
     const std::function<void()> m_reload;
-    // Connections that were cut short end with m_io and still use these.
+    // Interrupted connections end with m_io and still use these.
     Changes m_changes;
     SessionContext m_context;
     asio::io_context m_io;

@@ -8,10 +8,11 @@
 
 #include "server/http/limits.h"
 #include "server/http/message.h"
+#include "server/jobs/change_watch.h"
 
 namespace sheer::http {
 
-/// Where to listen: a numeric address and a port, 0 for any that is free.
+/// Where to listen: a numeric address and a port, 0 for any free port.
 struct Endpoint {
     std::string address = "127.0.0.1";
     std::uint16_t port = 8080;
@@ -23,29 +24,29 @@ bool is_loopback(const Endpoint& endpoint);
 /// "http://127.0.0.1:8080"
 std::string url_of(const Endpoint& endpoint);
 
-/// How requests of this method and target are treated. Called on the thread of the connections.
+/// How to treat requests with this method and target. Called on the thread of the connections.
 using HandlingOf = std::function<Handling(std::string_view method, std::string_view target)>;
 
-/// Speaks HTTP/1.1. Connections are served by the thread in `run`, answers are made by a pool.
+/// An HTTP/1.1 server. The thread in `run` serves the connections, a pool makes the answers.
 class Server {
   public:
     using Answerer = std::function<Answer(Request)>;
 
-    /// What the server asks of the rest of the program.
+    /// What the server needs from the rest of the program.
     struct Hooks {
         Answerer answer;
         HandlingOf handling;
-        std::function<std::int64_t()> change_counter;  ///< the store's
-        std::function<void()> reload;                  ///< on SIGHUP; on the thread of the connections
+        std::unique_ptr<ChangeWatch> changes;  ///< the store's
+        std::function<void()> reload;          ///< on SIGHUP; on the thread of the connections
     };
 
     /// Listens at once; connections wait until `run`. Throws std::runtime_error.
     Server(const Endpoint& endpoint, const Limits& limits, Hooks hooks);
     ~Server();
 
-    /// Where it listens, with the port that was found.
+    /// Where it listens, with the actual port.
     Endpoint endpoint() const;
-    /// Serves until SIGINT or SIGTERM, then finishes the answers that are on their way; a second signal ends those too.
+    /// Serves until SIGINT or SIGTERM, then finishes pending answers; a second signal ends those too.
     void run();
 
   private:

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <boost/asio/as_tuple.hpp>
-#include <boost/asio/co_spawn.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core.hpp>
@@ -13,9 +12,9 @@
 #include <ctime>
 
 #include "server/http/application.h"
+#include "server/http/pool_work.h"
 #include "server/http/problem.h"
 #include "server/http/request_head.h"
-#include "server/http/text.h"
 
 namespace sheer::http {
 
@@ -31,19 +30,15 @@ namespace {
 
 constexpr auto token = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds linger_timeout{10};
-// What a request may take to arrive before it counts as slow, if somebody else needs its connection.
+// How long a request may take to arrive before it counts as slow, if another client needs its connection.
 constexpr std::chrono::seconds slow_header{1}, slow_body{10};
-// A connection that is new has not had the time to ask for anything.
+// A new connection has not had time to send a request.
 constexpr std::chrono::milliseconds newcomer_time{250};
-// On a connection beyond the limit, for a probe to say what it wants.
+constexpr std::string_view sign_of_life = ":\n\n";
+// The part of a picture that is read and sent at a time.
+constexpr std::uint64_t piece_bytes = 64 << 10;
+// For a probe's request on a connection beyond the limit.
 constexpr std::chrono::seconds spare_timeout{2};
-
-/// Runs `work` on the pool and comes back to the connection's thread with what it gave.
-template <typename Work>
-asio::awaitable<std::invoke_result_t<Work&>> on_pool(asio::thread_pool& pool, Work work) {
-    auto run = [](Work inner) -> asio::awaitable<std::invoke_result_t<Work&>> { co_return inner(); };
-    co_return co_await asio::co_spawn(pool, run(std::move(work)), asio::use_awaitable);
-}
 
 /// RFC 9110, 5.6.7.
 std::string http_date() {
@@ -62,8 +57,8 @@ Request request_without_body(const bhttp::request<bhttp::string_body>& message) 
     return request;
 }
 
-/// The problem that a request which cannot be read deserves, or nothing where nobody is left to hear it: the other side
-/// has gone, or it was too slow and the stream has closed itself.
+/// The problem for a request that cannot be read, or nothing if it could not be sent: the other side has closed the
+/// connection, or it was too slow and the stream has closed itself.
 std::optional<Response> problem_of(beast::error_code error) {
     if (error == bhttp::error::body_limit) return problem(413, "The body is too long.");
     if (error == bhttp::error::header_limit || error == bhttp::error::buffer_overflow)
@@ -120,7 +115,7 @@ class TcpSession : public Session {
         m_stream.close();
     }
 
-    /// Returns whether the connection may be used again.
+    /// Returns whether the connection can be used again.
     asio::awaitable<bool> serve_one() {
         m_head = m_close = false;
         m_version = 11;
@@ -175,7 +170,7 @@ class TcpSession : public Session {
 
     asio::awaitable<beast::error_code> read_header(Parser& parser) {
         parser.header_limit(m_limits.header_bytes);
-        // The declared length is held against the limit once the header is there, so that the answer can be a clean
+        // The declared length is compared with the limit after the header is read, so that the answer can be a clean
         // 413.
         parser.body_limit(boost::none);
         m_dispensable_from = SteadyClock::now() + slow_header;
@@ -188,7 +183,7 @@ class TcpSession : public Session {
         const auto length = parser.content_length();
         if (length && *length > limit) co_return bhttp::error::body_limit;
         parser.body_limit(limit);
-        if (equal_ignoring_case(std::string(parser.get()[bhttp::field::expect]), "100-continue")) {
+        if (beast::iequals(parser.get()[bhttp::field::expect], "100-continue")) {
             const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
             const bool sent = co_await write_text(go_on);
             if (!sent) co_return bhttp::error::partial_message;
@@ -199,8 +194,8 @@ class TcpSession : public Session {
         co_return error;
     }
 
-    /// Says what is wrong and ends the connection so that the sender gets to read it: closing with unread data would
-    /// reset the connection, and with it the answer.
+    /// Sends the problem and ends the connection so that the sender can read it: closing with unread data would reset
+    /// the connection, and the answer would be lost.
     asio::awaitable<bool> reject(std::optional<Response> response) {
         if (!response) co_return false;
         m_close = true;
@@ -226,7 +221,7 @@ class TcpSession : public Session {
 
     asio::awaitable<bool> write_when_ready(Waiting& waiting) {
         const Lasting lasting(m_context.lasting, m_client);
-        // One of too many does not wait: it is told how things are now.
+        // If there are too many, this one does not wait: it gets the current state.
         const auto deadline = SteadyClock::now() + (lasting.is_granted() ? waiting.limit : Milliseconds(0));
         while (true) {
             const std::uint64_t seen = m_context.changes.generation();
@@ -240,17 +235,34 @@ class TcpSession : public Session {
         }
     }
 
-    asio::awaitable<bool> write_events(EventStream& stream) {
+    /// The next chunk of a stream. The pool or the store may be busy for a long time, so signs of life are sent
+    /// meanwhile. Nothing if the other side has closed the connection.
+    asio::awaitable<std::optional<EventChunk>> next_chunk(const std::shared_ptr<EventStream>& stream,
+                                                          SteadyTime& next_heartbeat) {
+        PoolWork<EventChunk> work(m_context.pool, m_stream.get_executor(), [stream] { return stream->next(); });
+        while (true) {
+            const bool is_over = co_await work.wait(next_heartbeat);
+            if (is_over) co_return work.take();
+            const bool sent = co_await write_text(sign_of_life);
+            if (!sent) co_return std::nullopt;
+            next_heartbeat = SteadyClock::now() + m_limits.event_heartbeat;
+        }
+    }
+
+    asio::awaitable<bool> write_events(EventStream& given) {
         const Lasting lasting(m_context.lasting, m_client);
         if (!lasting.is_granted()) co_return co_await write_response(too_many_streams());
         m_close = true;
-        const bool begun = co_await write_stream_head(stream.head);
+        const bool begun = co_await write_stream_head(given.head);
         if (!begun || m_head) co_return false;
+        const auto stream = std::make_shared<EventStream>(std::move(given));
         auto next_heartbeat = SteadyClock::now() + m_limits.event_heartbeat;
         while (!m_context.stopping) {
             const std::uint64_t seen = m_context.changes.generation();
-            EventChunk chunk = co_await on_pool(m_context.pool, [&] { return stream.next(); });
-            if (chunk.text.empty() && SteadyClock::now() >= next_heartbeat) chunk.text = ":\n\n";
+            std::optional<EventChunk> made = co_await next_chunk(stream, next_heartbeat);
+            if (!made) co_return false;
+            EventChunk& chunk = *made;
+            if (chunk.text.empty() && SteadyClock::now() >= next_heartbeat) chunk.text = sign_of_life;
             if (!chunk.text.empty()) {
                 const bool sent = co_await write_text(chunk.text);
                 if (!sent) co_return false;
@@ -265,12 +277,13 @@ class TcpSession : public Session {
     }
 
     static Response too_many_streams() {
-        Response response = finished(problem(429, "Too many streams of events are open; close one, or ask again."));
+        Response response =
+            finished(problem(429, "Too many streams of events are open; close one, or try again later."));
         response.headers.add("Retry-After", "10");
         return response;
     }
 
-    /// Returns false if the other side has gone meanwhile.
+    /// Returns false if the other side has closed the connection meanwhile.
     asio::awaitable<bool> wait_for_change(std::uint64_t seen, Milliseconds limit) {
         if (m_read_ahead) {
             co_await m_context.changes.wait(seen, limit);
@@ -280,7 +293,7 @@ class TcpSession : public Session {
                                      m_stream.socket().async_wait(tcp::socket::wait_read, token));
         if (first.index() == 0) co_return true;
         beast::error_code error;
-        // What is readable is either the end of the connection or a request sent ahead of its time.
+        // Readable data means either the end of the connection or a request that was sent early.
         m_read_ahead = m_stream.socket().available(error) > 0;
         co_return !error && m_read_ahead;
     }
@@ -297,8 +310,8 @@ class TcpSession : public Session {
 
     asio::awaitable<bool> write_response(const Response& response) {
         m_read_ahead = false;
-        const auto* file = std::get_if<std::filesystem::path>(&response.body);
-        if (file) co_return co_await write_file(response, *file);
+        const auto* content = std::get_if<ContentPtr>(&response.body);
+        if (content) co_return co_await write_content(response, **content);
         const std::string& text = std::get<std::string>(response.body);
         const bool has_body = response.status != 204 && response.status != 304;
         if (m_head || !has_body)
@@ -310,18 +323,26 @@ class TcpSession : public Session {
         co_return co_await write_message(message);
     }
 
-    asio::awaitable<bool> write_file(const Response& response, const std::filesystem::path& path) {
-        beast::error_code error;
-        bhttp::response<bhttp::file_body> message;
-        message.body().open(path.c_str(), beast::file_mode::scan, error);
-        if (error) co_return co_await write_response(problem(500, "The file cannot be read."));
-        if (m_head) co_return co_await write_empty(response, message.body().size());
+    /// Reading from a store may take a long time, so the pool reads one piece at a time.
+    asio::awaitable<bool> write_content(const Response& response, const Content& content) {
+        const std::uint64_t size = content.size_bytes();
+        bhttp::response<bhttp::empty_body> message;
         fill_head(message, response);
-        message.prepare_payload();
-        co_return co_await write_message(message);
+        message.content_length(size);
+        if (m_head) co_return co_await write_message(message);
+        const bool begun = co_await send(message);
+        if (!begun) co_return false;
+        std::string piece;
+        for (std::uint64_t done = 0; done < size; done += piece.size()) {
+            piece.resize(std::min<std::uint64_t>(size - done, piece_bytes));
+            co_await on_pool(m_context.pool, [&] { content.read(done, piece); });
+            const bool sent = co_await write_text(piece);
+            if (!sent) co_return false;
+        }
+        co_return message.keep_alive();
     }
 
-    /// A head without a body; `length` is what the body would have.
+    /// A head without a body; `length` is the length that the body would have.
     asio::awaitable<bool> write_empty(const Response& response, std::optional<std::uint64_t> length) {
         bhttp::response<bhttp::empty_body> message;
         fill_head(message, response);
@@ -335,7 +356,7 @@ class TcpSession : public Session {
         co_return co_await send(message);
     }
 
-    /// Returns whether the connection may be used again.
+    /// Returns whether the connection can be used again.
     template <typename Body>
     asio::awaitable<bool> write_message(bhttp::response<Body>& message) {
         const bool sent = co_await send(message);
@@ -354,11 +375,15 @@ class TcpSession : public Session {
         co_return true;
     }
 
-    asio::awaitable<bool> write_text(const std::string& text) {
-        m_stream.expires_after(m_limits.write_timeout);
-        auto [error, count] = co_await asio::async_write(m_stream, asio::buffer(text), token);
+    asio::awaitable<bool> write_text(std::string_view text) {
+        while (!text.empty()) {
+            m_stream.expires_after(m_limits.write_timeout);
+            auto [error, count] = co_await m_stream.async_write_some(asio::buffer(text), token);
+            if (error) co_return false;
+            text.remove_prefix(count);
+        }
         m_stream.expires_never();
-        co_return !error;
+        co_return true;
     }
 
     SessionContext& m_context;
@@ -372,10 +397,10 @@ class TcpSession : public Session {
     beast::flat_buffer m_buffer;
     unsigned m_version = 11;
     bool m_idle = false;
-    bool m_has_asked = false;  ///< whether a first request began to arrive
+    bool m_has_asked = false;  ///< whether a first request has begun to arrive
     bool m_head = false;
     bool m_close = false;
-    bool m_read_ahead = false;  ///< whether the next request is there already
+    bool m_read_ahead = false;  ///< whether the next request has already arrived
 };
 
 }  // namespace

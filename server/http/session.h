@@ -17,7 +17,7 @@ namespace sheer::http {
 
 class Session;
 
-/// What the connections of a server share. Used on the io_context's thread only.
+/// Shared by the connections of a server. Used only on the io_context's thread.
 struct SessionContext {
     const Limits& limits;
     std::function<Answer(Request)> answer;  ///< called on the pool
@@ -28,10 +28,10 @@ struct SessionContext {
     LastingAnswers lasting;
     std::set<Session*> sessions;
     bool stopping = false;
-    std::function<void()> on_end;  ///< called when a session ended
+    std::function<void()> on_end;  ///< called when a session has ended
 };
 
-/// A connection beyond the limit has a spare seat: one probe is answered on it, anything else with 503.
+/// A spare seat is a connection beyond the limit: one probe is answered on it, anything else gets 503.
 enum class Seat { ordinary, spare };
 
 /// One connection.
@@ -42,16 +42,16 @@ class Session {
     virtual ~Session() = default;
     /// Serves requests until either side ends the connection.
     virtual boost::asio::awaitable<void> run() = 0;
-    /// Ends it at once if it waits for a request, else after the answer that is on its way.
+    /// Ends it at once if it waits for a request, otherwise after the pending answer.
     virtual void stop() = 0;
     /// Ends it at once.
     virtual void drop() = 0;
     virtual Seat seat() const = 0;
     virtual SteadyTime begun() const = 0;
-    /// From when on it may be ended for the sake of another one: it waits for a request that does not come, or comes
+    /// The time from which it may be ended in favor of another one: it waits for a request that does not come, or comes
     /// slowly. Nothing while an answer is made or sent.
     virtual std::optional<SteadyTime> dispensable_from() const = 0;
-    /// Whether it was ended, and only its destructor is yet to come.
+    /// Whether it was ended, and only its destructor has not run yet.
     virtual bool is_over() const = 0;
 };
 

@@ -6,8 +6,8 @@
 
 namespace sheer::http {
 
-/// One of the few requests of a kind that are answered at a time, since each takes a processor and a thread that makes
-/// answers. Throws Problem (429) with `busy` where all slots are taken.
+/// One of the few requests of a kind that are answered at the same time, since each occupies a processor and a thread
+/// that makes answers. Throws Problem (429) with `busy` if all slots are taken.
 class Slot {
   public:
     Slot(std::atomic<int>& taken, int slots, const std::string& busy) : m_taken(taken) {

@@ -3,12 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <boost/beast/core/string.hpp>
+#include <boost/beast/http/rfc7230.hpp>
+#include <boost/url/grammar/ci_string.hpp>
+#include <boost/url/grammar/lut_chars.hpp>
+#include <boost/url/parse_path.hpp>
+#include <boost/url/parse_query.hpp>
+#include <boost/url/rfc/pchars.hpp>
 #include <charconv>
 
 #include "server/jobs/report_id.h"
 
 namespace sheer::http {
+
+namespace beast = boost::beast;
+namespace urls = boost::urls;
 
 namespace {
 
@@ -21,15 +30,26 @@ std::optional<int> hex_value(char digit) {
     return value;
 }
 
-char lower(char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+template <typename IsKept>
+std::string escaped(std::string_view text, const IsKept& is_kept) {
+    std::string all;
+    for (const char c : text) {
+        if (is_kept(c)) {
+            all += c;
+        } else {
+            all += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        }
+    }
+    return all;
+}
+
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(), urls::grammar::to_lower);
+    return lower;
 }
 
 }  // namespace
-
-bool equal_ignoring_case(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
-}
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t");
@@ -47,43 +67,44 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
-std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_space) {
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '%') {
-            if (i + 2 >= text.size()) return std::nullopt;
-            const auto high = hex_value(text[i + 1]), low = hex_value(text[i + 2]);
-            if (!high || !low) return std::nullopt;
-            decoded += static_cast<char>(*high * 16 + *low);
-            i += 2;
-        } else {
-            decoded += plus_is_space && text[i] == '+' ? ' ' : text[i];
-        }
-    }
-    return decoded;
+std::string with_ascii_only(std::string_view text) {
+    return escaped(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+std::string with_escapes(std::string_view text) {
+    constexpr auto kept = urls::pchars + urls::grammar::lut_chars("/?%");
+    return escaped(text, kept);
+}
+
+std::optional<std::vector<std::string>> path_segments(std::string_view path) {
+    const std::string legal = with_escapes(path);
+    const auto parsed = urls::parse_path(legal);
+    if (!parsed || !parsed->is_absolute()) return std::nullopt;
+    std::vector<std::string> segments;
+    for (const auto segment : *parsed) segments.push_back(segment.decode());
+    return segments;
 }
 
 std::optional<std::vector<std::pair<std::string, std::string>>> query_pairs(std::string_view query) {
+    const std::string legal = with_escapes(query);
+    const auto parsed = urls::parse_query(legal);
+    if (!parsed) return std::nullopt;
+    const urls::encoding_opts plus_is_space(true);
     std::vector<std::pair<std::string, std::string>> pairs;
-    if (query.empty()) return pairs;
-    for (const std::string_view part : split(query, '&')) {
-        if (part.empty()) continue;
-        const std::size_t equals = part.find('=');
-        const auto name = percent_decoded(part.substr(0, equals), true);
-        const auto value =
-            percent_decoded(equals == std::string_view::npos ? std::string_view() : part.substr(equals + 1), true);
-        if (!name || !value) return std::nullopt;
-        pairs.emplace_back(*name, *value);
-    }
+    for (const auto& pair : *parsed)
+        if (!pair.key.empty() || pair.has_value)
+            pairs.emplace_back(pair.key.decode(plus_is_space), pair.value.decode(plus_is_space));
     return pairs;
 }
 
 std::optional<int> preferred_wait_s(std::string_view prefer) {
     for (const std::string_view preference : split(prefer, ',')) {
-        const std::string_view pair = split(preference, ';').front();
-        const std::size_t equals = pair.find('=');
-        if (equals == std::string_view::npos || !equal_ignoring_case(trimmed(pair.substr(0, equals)), "wait")) continue;
-        const std::string_view digits = trimmed(pair.substr(equals + 1));
+        // A preference with its parameters is a list of parameters, except that it does not begin with a semicolon.
+        const std::string parameters = fmt::format(";{}", preference);
+        const beast::http::param_list list(parameters);
+        const auto first = list.begin();
+        if (first == list.end() || !beast::iequals(first->first, "wait")) continue;
+        const std::string_view digits = first->second;
         int seconds = 0;
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seconds);
         if (error == std::errc() && end == digits.data() + digits.size() && seconds >= 0) return seconds;
@@ -99,9 +120,7 @@ bool names_etag(std::string_view if_none_match, std::string_view etag) {
 }
 
 std::string media_type_of(std::string_view content_type) {
-    std::string type(split(content_type, ';').front());
-    std::ranges::transform(type, type.begin(), lower);
-    return type;
+    return in_lower_case(split(content_type, ';').front());
 }
 
 bool is_json_type(std::string_view content_type) {
@@ -111,9 +130,7 @@ bool is_json_type(std::string_view content_type) {
 
 std::string host_name(std::string_view host) {
     const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : host.find(':');
-    std::string name(host.substr(0, end));
-    std::ranges::transform(name, name.begin(), lower);
-    return name;
+    return in_lower_case(host.substr(0, end));
 }
 
 std::string event_text(std::int64_t id, std::string_view event, std::string_view data) {

@@ -5,7 +5,7 @@
 
 namespace sheer {
 
-/// What the archive can be searched by.
+/// The properties by which the archive can be searched.
 struct Facets {
     std::string title;
     std::string scene;                               ///< type
@@ -16,8 +16,8 @@ struct Facets {
 /// From the normalised spec of a report.
 Facets facets_of(const nlohmann::json& spec);
 
-/// The picture that stands for a done report: the reference of its first point, or its first method's; null if it has
-/// none.
+/// The preview picture of a done report: the reference of its first point, or its first method's picture; null if it
+/// has none.
 nlohmann::json preview_of(const nlohmann::json& report);
 
 }  // namespace sheer

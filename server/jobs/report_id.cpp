@@ -11,7 +11,7 @@ namespace sheer {
 namespace {
 
 constexpr std::uint32_t counter_end = 1u << 12;
-// Half of the counter's range stays free, so that the ids of one millisecond seldom run into the next.
+// Half of the counter's range stays free, so that the ids of one millisecond rarely overflow into the next.
 constexpr std::uint32_t counter_start_mask = (counter_end >> 1) - 1;
 
 std::uint64_t random_bits() {

@@ -4,13 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include "server/jobs/clock.h"
+#include "renderer/core/clock.h"
 
 namespace sheer {
 
-/// Makes the ids of reports: UUID version 7 (RFC 9562), so that their order as text is the order in time. The ids of
-/// one object are strictly increasing, also within a millisecond and when the clock is set back. Safe to share by
-/// threads.
+/// Makes the ids of reports: UUID version 7 (RFC 9562), so that their order as text is their order in time. The ids of
+/// one object are strictly increasing, even within a millisecond and when the clock is set back. Thread-safe.
 class ReportIds {
   public:
     explicit ReportIds(ClockMs clock);

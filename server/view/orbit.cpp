@@ -10,7 +10,7 @@ namespace sheer::view {
 namespace {
 
 constexpr double highest_deg = 89, farthest = 1e18;
-/// Of the target's coordinates: closer to it, doubles would no longer tell directions well.
+/// Relative to the target's coordinates: any closer, doubles would lose the precision of directions.
 constexpr double nearest_ratio = 1e-9;
 
 Camera camera_of(const nlohmann::json& camera) {

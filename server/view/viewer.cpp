@@ -11,10 +11,10 @@
 #include <new>
 #include <numbers>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
+#include "renderer/core/files.h"
+#include "renderer/counting/loop_check.h"
 #include "renderer/files/picture_file.h"
-#include "renderer/frame/loop_check.h"
-#include "server/cli/rendering.h"
 #include "server/view/orbit.h"
 
 namespace sheer::view {
@@ -24,13 +24,6 @@ namespace {
 constexpr double wheel_factor = 0.9, threshold_factor = 1.25, least_threshold = 1e-4;
 constexpr int divider_px = 2;
 constexpr const char* default_screenshot = "sheer-view.png";
-
-/// The parameter that the threshold keys change; null if the method has none.
-const Param* threshold_of(const MethodSpec& method) {
-    const std::vector<Param>& parameters = find_method(method.id)->parameters;
-    const auto found = std::ranges::find(parameters, "threshold", &Param::name);
-    return found == parameters.end() ? nullptr : &*found;
-}
 
 /// The part of the window that the picture fills: as large as fits, in the middle.
 struct Frame {
@@ -47,14 +40,14 @@ Frame frame_of(const Size& window, const Target& target) {
 }  // namespace
 
 const char* const keys_text =
-    "1 to 9     the method of that number in the spec; 0 the reference\n"
-    "S          two methods side by side; the border follows the mouse\n"
+    "1 to 9     show the method with that number in the spec; 0 shows the reference\n"
+    "S          show two methods side by side; the border follows the mouse\n"
     "           1 to 9 and 0 then choose the right one, with Shift the left one\n"
-    "+ or Up    a higher threshold; - or Down a lower one, of every method shown that has one\n"
-    "drag       goes around the scene; the wheel goes nearer and away; R goes back\n"
-    "P          writes the picture to a PNG file\n"
-    "H or F1    this text\n"
-    "Esc        ends\n";
+    "+ or Up    raise the threshold of every method shown that has one; - or Down lower it\n"
+    "drag       move around the scene; the wheel moves closer or away; R resets the camera\n"
+    "P          write the picture to a PNG file\n"
+    "H or F1    show this text\n"
+    "Esc        quit\n";
 
 Viewer::Viewer(const Spec& spec, const gl::ContextRequest& request, AssetReader& assets, std::string screenshot)
     : m_spec(spec),
@@ -113,7 +106,7 @@ void Viewer::handle(const MouseMove& move) {
     const Size size = m_window.size();
     m_divider_px = std::clamp(static_cast<int>(std::lround(move.at.x)), 0, size.width_px);
     if (!move.dragging || m_first_camera.is_null()) return;
-    // What is under the mouse goes along with it: once around for the width, from pole to pole for the height.
+    // The scene follows the mouse: once around for the width, from pole to pole for the height.
     const double turn = -2 * std::numbers::pi * move.moved.x / std::max(1, size.width_px);
     const double rise = std::numbers::pi * move.moved.y / std::max(1, size.height_px);
     look_through(orbited(m_spec.scene.at("camera"), turn, rise));
@@ -135,9 +128,9 @@ void Viewer::scale_threshold(double factor) {
     std::vector<std::size_t> shown = {m_sides[0].choice};
     if (m_split && m_sides[1].choice != shown[0]) shown.push_back(m_sides[1].choice);
     for (const std::size_t choice : shown) {
-        const Param* threshold = threshold_of(m_choices[choice]);
+        const Param* threshold = find_method(m_choices[choice].id)->saturation();
         if (threshold == nullptr) continue;
-        nlohmann::json& value = m_choices[choice].parameters.at("threshold");
+        nlohmann::json& value = m_choices[choice].parameters.at(threshold->name);
         const double scaled = std::max(value.get<double>(), least_threshold) * factor;
         value = std::clamp(scaled < least_threshold ? 0 : scaled, threshold->min, threshold->max);
         for (Side& side : m_sides)
@@ -172,7 +165,7 @@ void Viewer::build_scene() {
 void Viewer::draw_side(Side& side) {
     if (side.is_drawn || !side.trouble.empty()) return;
     const std::string doing = "rendering " + m_choices[side.choice].label;
-    // What goes wrong with one method is no reason to close the window on the others; the end of the device is.
+    // The failure of one method is no reason to close the window; the loss of the device is.
     try {
         make_method(side);
         side.frame_ms = render(*side.method, true).wall_ms;
@@ -189,7 +182,7 @@ void Viewer::draw_side(Side& side) {
     }
     if (side.is_drawn) return;
     side.method.reset();
-    // What is kept beside it is its own, not the next method's.
+    // Errors that GL still reports belong to this method, not to the next one.
     try {
         m_window.check(doing);
     } catch (const ContextLost&) {
@@ -200,22 +193,17 @@ void Viewer::draw_side(Side& side) {
     spdlog::error("{}: {}", m_choices[side.choice].label, side.trouble);
 }
 
-/// A first frame, which may compile, is not the one that is timed.
+/// The first frame, which may compile shaders, is not timed.
 void Viewer::make_method(Side& side) {
     const MethodSpec& choice = m_choices[side.choice];
-    side.method = find_method(choice.id)->make({m_window, m_window.gl(), *m_scene, *side.target, choice.parameters});
+    side.method = find_method(choice.id)->make({m_window, m_window.gl(), *m_scene, *side.target}, choice.parameters);
     render(*side.method, false);
 }
 
 gl::FrameSample Viewer::render(Method& method, bool timed) {
-    m_timer.begin_frame(timed);
-    try {
-        method.render(m_timer);
-    } catch (...) {
-        m_timer.end_frame();
-        throw;
-    }
-    return m_timer.end_frame();
+    gl::FrameTimer::Frame frame = m_timer.frame(timed);
+    method.render(m_timer);
+    return frame.end();
 }
 
 void Viewer::show_picture() const {
@@ -241,7 +229,7 @@ void Viewer::show_part(const Side& side, int begin_px, int end_px) const {
     gl.Enable(GL_SCISSOR_TEST);
     gl.Scissor(begin_px, 0, end_px - begin_px, window.height_px);
     const bool enlarged = frame.width_px >= side.target->width_px();
-    // Row 0 is the top row of the target, and the bottom row of a window.
+    // Row 0 is the top row of the target but the bottom row of a window.
     gl.BlitNamedFramebuffer(side.target->framebuffer().id(), 0, 0, 0, side.target->width_px(), side.target->height_px(),
                             frame.x_px, frame.y_px + frame.height_px, frame.x_px + frame.width_px, frame.y_px,
                             GL_COLOR_BUFFER_BIT, enlarged ? GL_NEAREST : GL_LINEAR);
@@ -266,12 +254,12 @@ std::string Viewer::title_of(const Side& side) const {
     const MethodSpec& method = m_choices[side.choice];
     if (!side.trouble.empty()) return fmt::format("{}: {}", method.label, side.trouble);
     std::string text = fmt::format("{}: {:.2f} ms", method.label, side.frame_ms);
-    if (threshold_of(method) != nullptr)
-        text += fmt::format(", threshold {:.4g}", method.parameters.at("threshold").get<double>());
+    if (const auto threshold = find_method(method.id)->saturation_of(method.parameters))
+        text += fmt::format(", threshold {:.4g}", *threshold);
     return text;
 }
 
-/// What has been drawn and not swapped yet. The file is there whole or not at all.
+/// Writes what has been drawn but not yet swapped. The file is written completely or not at all.
 void Viewer::write_screenshot() const {
     const gl::Functions& gl = m_window.gl();
     const Size size = m_window.size();
@@ -284,9 +272,9 @@ void Viewer::write_screenshot() const {
     for (int y = 0; y < size.height_px; ++y)
         std::copy_n(rows.begin() + std::ptrdiff_t(3) * size.width_px * (size.height_px - 1 - y), 3 * size.width_px,
                     image.rgb.begin() + std::ptrdiff_t(3) * size.width_px * y);
-    cli::write_text(m_screenshot + ".partial", encode_png(image));
+    write_file(m_screenshot + ".partial", encode_png(image));
     std::filesystem::rename(m_screenshot + ".partial", m_screenshot);
-    fmt::print("Written: {}\n", m_screenshot);
+    fmt::print("Wrote {}\n", m_screenshot);
     std::fflush(stdout);
 }
 

@@ -4,23 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
 #include "renderer/scene/assets.h"
+#include "renderer/spec/spec.h"
 #include "server/view/window.h"
 
 namespace sheer::view {
 
-/// What `sheer view` says for the key H.
+/// What `sheer view` prints for the key H.
 extern const char* const keys_text;
 
-/// Shows a spec's scene in a window: one method, or two side by side, drawn anew after each change.
+/// Shows a spec's scene in a window: one method, or two side by side, drawn again after each change.
 class Viewer {
   public:
     /// Throws SpecError for a scene that cannot be built, Unsupported without a display. `screenshot` is the PNG file
-    /// that P and the end of run() write; "" for sheer-view.png by P alone.
+    /// written by P and at the end of run(); if it is "", only P writes one, to sheer-view.png.
     Viewer(const Spec& spec, const gl::ContextRequest& request, AssetReader& assets, std::string screenshot);
 
-    /// Until the window is closed. Throws RenderError.
+    /// Runs until the window is closed. Throws RenderError.
     void run();
 
   private:
@@ -29,10 +30,10 @@ class Viewer {
         std::size_t choice = 0;  ///< index into m_choices
         std::unique_ptr<Target> target;
         std::unique_ptr<Method> method;
-        bool is_drawn = false;  ///< the target holds what the method makes of the scene
-        std::string trouble;    ///< why the method does not draw; "" while it does
+        bool is_drawn = false;  ///< the target holds the method's picture of the scene
+        std::string trouble;    ///< why the method cannot draw; "" if it can
         double frame_ms = 0;
-        /// Something it depends on is about to change.
+        /// Called before something it depends on changes.
         void renew() {
             method.reset();
             is_drawn = false;
@@ -67,8 +68,8 @@ class Viewer {
     gl::FrameTimer m_timer;
     std::vector<MethodSpec> m_choices;  ///< the spec's methods, then its reference
     nlohmann::json m_first_camera;      ///< null for a scene without one
-    std::unique_ptr<Scene> m_scene;     ///< null: has to be built
-    std::array<Side, 2> m_sides;        ///< left, right; without the split the left one is all
+    std::unique_ptr<Scene> m_scene;     ///< null if it has to be built
+    std::array<Side, 2> m_sides;        ///< left, right; without a split the left one fills the window
     bool m_split = false;
     int m_divider_px = 0;  ///< in the window's picture
 };

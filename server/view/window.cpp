@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 
 namespace sheer::view {
 
 namespace {
 
-/// Less than the screen's work area by this, for the frame that a window manager adds.
+/// Margin to the screen's work area, for the frame that a window manager adds.
 constexpr int frame_px = 64;
 
 Size fit_screen(Size size) {

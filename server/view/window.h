@@ -19,7 +19,7 @@ struct Size {
 };
 
 struct KeyPress {
-    int key = 0;  ///< GLFW_KEY_...; whatever types a + or a - is GLFW_KEY_KP_ADD or GLFW_KEY_KP_SUBTRACT
+    int key = 0;  ///< GLFW_KEY_...; any key that types + or - becomes GLFW_KEY_KP_ADD or GLFW_KEY_KP_SUBTRACT
     bool shift = false;
 };
 /// In pixels of the window's picture, from the top left.
@@ -35,7 +35,7 @@ using Event = std::variant<KeyPress, MouseMove, Wheel>;
 /// A window on the screen with an OpenGL context. Main thread only, as GLFW demands.
 class Window final : public gl::Context {
   public:
-    /// The picture of the window has this size, or is as much smaller, of the same shape, as the screen needs.
+    /// The window's picture has this size, or is scaled down to fit the screen.
     /// Throws Unsupported with GLFW's reason, such as no display.
     Window(Size size, const gl::ContextRequest& request);
     ~Window() override;
@@ -45,7 +45,7 @@ class Window final : public gl::Context {
     void set_title(const std::string& title);
     /// Shows what has been drawn into framebuffer 0.
     void swap();
-    /// Waits until something happens: what the user did, or nothing if the window only needs to be drawn again.
+    /// Waits until something happens and returns the user's actions, or nothing if the window only needs to be redrawn.
     std::vector<Event> wait();
     void close();
     bool is_closing() const;

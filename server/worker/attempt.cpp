@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <cerrno>
-#include <fstream>
-
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
+#include "renderer/core/exit_codes.h"
+#include "renderer/core/files.h"
 #include "server/worker/report_folder.h"
 #include "server/worker/scratch.h"
 
@@ -17,29 +16,24 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Each write of progress waits for the disk and so disturbs what is being timed.
+// Each write of progress waits for the disk and so disturbs the timing.
 constexpr auto progress_interval = 250ms;
 constexpr auto question_interval = 200ms;
-
-constexpr int exit_check_failed = 1;
-
-void write_text(const fs::path& path, const std::string& text) {
-    errno = 0;
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw WriteError(errno == 0 ? EIO : errno, path.string());
-}
 
 }  // namespace
 
 Attempt::Attempt(Store& store, const WorkerOptions& options, const ClockMs& clock, const Lease& lease, StopSignal& stop)
-    : m_store(store), m_options(options), m_clock(clock), m_lease(lease), m_stop(stop) {}
+    : m_queue(store.queue()),
+      m_readiness(store.readiness()),
+      m_options(options),
+      m_clock(clock),
+      m_lease(lease),
+      m_stop(stop) {}
 
 void Attempt::run() {
-    const ScratchFolder scratch(m_options.data / "scratch", m_lease.id, m_lease.attempt);
+    const ScratchFolder scratch(m_options.scratch, m_lease.id, m_lease.attempt);
     const fs::path spec = scratch.path() / "spec.json", out = scratch.path() / "out";
-    write_text(spec, m_lease.spec);
+    write_file(spec, m_lease.spec);
     spdlog::info("job {} starts, attempt {}", m_lease.id, m_lease.attempt);
     conclude(run_child(child_run(spec, out)), out);
 }
@@ -47,8 +41,7 @@ void Attempt::run() {
 ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
     ChildRun run;
     run.options.program = m_options.program;
-    run.options.arguments = {"render",     spec.string(), "--out",
-                             out.string(), "--assets",    (m_options.data / "assets").string()};
+    run.options.arguments = {"render", spec.string(), "--out", out.string(), "--data", m_options.data};
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
     run.time_limit = m_options.time_limit;
     run.wake_descriptor = m_stop.descriptor();
@@ -75,18 +68,18 @@ bool Attempt::keep_lease() {
     if (due) {
         beat(now);
     } else if (now - m_last_question >= question_interval) {
-        m_state = m_store.state(m_lease);
+        m_state = m_queue.state(m_lease);
         m_last_question = now;
     }
     return m_state == LeaseState::held;
 }
 
-/// A disk that refuses a heartbeat does not stop the rendering as long as nobody else can have got the job.
+/// A heartbeat that cannot be written does not stop the rendering as long as no other worker can have got the job.
 void Attempt::beat(SteadyTime now) {
     m_last_heartbeat = now;
     try {
-        m_state = m_store.heartbeat(m_lease, m_progress.fraction, m_progress.stage);
-        if (m_rendered) m_store.note_rendered();
+        m_state = m_queue.heartbeat(m_lease, m_progress.fraction, m_progress.stage);
+        if (m_rendered) m_readiness.note_rendered();
         m_unsaved_progress = m_rendered = false;
         m_lease_kept = now;
     } catch (const DiskError& error) {
@@ -99,18 +92,18 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
     if (result.timed_out) {
         const auto limit_s = std::chrono::duration_cast<std::chrono::seconds>(m_options.time_limit).count();
         spdlog::warn("job {} was stopped after {} s", m_lease.id, limit_s);
-        m_store.fail(m_lease, {"Rendering took too long", fmt::format("It was stopped after {} s.", limit_s)}, false);
+        m_queue.fail(m_lease, {"Rendering took too long", fmt::format("It was stopped after {} s.", limit_s)}, false);
     } else if (result.stopped && m_state == LeaseState::cancel_requested) {
         spdlog::info("job {} is cancelled", m_lease.id);
-        m_store.cancel(m_lease);
+        m_queue.cancel(m_lease);
     } else if (result.stopped && m_state == LeaseState::lost) {
         spdlog::warn("job {} is no longer ours", m_lease.id);
     } else if (result.stopped) {
         spdlog::info("job {} goes back to the queue", m_lease.id);
-        m_store.release(m_lease);
-    } else if (result.status.code == 0 || result.status.code == exit_check_failed) {
-        const bool kept = m_store.commit(m_lease, read_report_folder(out, m_lease, m_clock()));
-        spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before its end");
+        m_queue.release(m_lease);
+    } else if (result.status.code == exit_ok || result.status.code == exit_check_failed) {
+        const bool kept = m_queue.commit(m_lease, read_report_folder(out, m_lease, m_clock()));
+        spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before it ended");
     } else {
         conclude_failure(result.status);
     }
@@ -119,15 +112,15 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
 void Attempt::conclude_failure(const ExitStatus& status) {
     if (status.signal != 0) {
         spdlog::error("job {}: the renderer died (signal {})", m_lease.id, status.signal);
-        m_store.fail_by_signal(
+        m_queue.fail_by_signal(
             m_lease, {"Rendering failed", fmt::format("The renderer died (signal {}).", status.signal)}, status.signal);
         return;
     }
     const JobError unexplained{"Rendering failed", fmt::format("The renderer ended with exit code {}.", status.code)};
     const JobError error = m_error ? m_error->error : unexplained;
     spdlog::error("job {}: exit code {}: {}: {}", m_lease.id, status.code, error.title, error.detail);
-    if (m_error && m_error->is_of_disk) return m_store.set_back(m_lease, error, m_error->lacks_room);
-    m_store.fail(m_lease, error, false);
+    if (m_error && m_error->is_of_disk) return m_queue.set_back(m_lease, error, m_error->lacks_room);
+    m_queue.fail(m_lease, error, false);
 }
 
 }  // namespace sheer

@@ -2,13 +2,13 @@
 #include <chrono>
 #include <optional>
 
-#include "server/worker/child_message.h"
-#include "server/worker/run_child.h"
+#include "server/process/child_message.h"
+#include "server/process/run_child.h"
 #include "server/worker/worker.h"
 
 namespace sheer {
 
-/// One try at a leased job: renders in a child, keeps the lease meanwhile, and ends the lease one way or the other.
+/// One attempt at a leased job: renders in a child, keeps the lease meanwhile, and always ends the lease.
 class Attempt {
   public:
     Attempt(Store& store, const WorkerOptions& options, const ClockMs& clock, const Lease& lease, StopSignal& stop);
@@ -25,7 +25,8 @@ class Attempt {
     void conclude(const ChildResult& result, const std::filesystem::path& out);
     void conclude_failure(const ExitStatus& status);
 
-    Store& m_store;
+    JobQueue& m_queue;
+    Readiness& m_readiness;
     const WorkerOptions& m_options;
     const ClockMs& m_clock;
     const Lease& m_lease;

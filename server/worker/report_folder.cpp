@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
-#include "renderer/report/report.h"
-#include "server/archive/blob_store.h"
-#include "server/jobs/clock.h"
+#include "renderer/core/clock.h"
+#include "renderer/core/files.h"
+#include "renderer/core/sha256.h"
+#include "server/jobs/limits.h"
+#include "server/jobs/store_errors.h"
 
 namespace sheer {
 
@@ -13,56 +15,51 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t max_report_bytes = std::uintmax_t{128} << 20;
-constexpr std::uintmax_t max_picture_bytes = std::uintmax_t{512} << 20;
-
-bool is_picture(const json& value) {
-    return value.is_object() && value.contains("url") && value.value("sha256", json()).is_string() &&
-           value.value("media_type", json()).is_string();
+report::Report read_report(const fs::path& file) {
+    const json document = json::parse(read_file(file, max_report_bytes), nullptr, false);
+    if (!document.is_object()) throw StoreError("report.json is not a JSON object");
+    try {
+        return from_document<report::Report>(document);
+    } catch (const DocumentError& wrong) {
+        throw StoreError(std::string("report.json is not a report: ") + wrong.what());
+    }
 }
 
-void check(const BlobFile& blob) {
+void check_name(const BlobName& blob) {
     if (!is_sha256(blob.sha256)) throw StoreError("a picture's sha256 is none: " + blob.sha256);
     // A blob is served under the service's own origin, so it must not be a page.
     if (!blob.media_type.starts_with("image/") || blob.media_type.starts_with("image/svg"))
         throw StoreError("a picture has the media type " + blob.media_type);
-    if (sha256_hex(read_file(blob.path, max_picture_bytes)) != blob.sha256)
-        throw StoreError("picture " + blob.sha256 + " has other bytes");
 }
 
 }  // namespace
 
-std::vector<BlobFile> named_blobs(const json& report, const fs::path& folder) {
-    std::vector<BlobFile> blobs;
-    std::vector<const json*> open{&report};
-    while (!open.empty()) {
-        const json& value = *open.back();
-        open.pop_back();
-        if (is_picture(value)) {
-            const std::string sha256 = value["sha256"];
-            if (std::ranges::none_of(blobs, [&](const BlobFile& blob) { return blob.sha256 == sha256; }))
-                blobs.push_back({sha256, value["media_type"], folder / sha256});
-        } else if (value.is_structured()) {
-            for (const json& inner : value) open.push_back(&inner);
-        }
-    }
+std::vector<BlobName> named_blobs(const report::Report& report) {
+    std::vector<BlobName> blobs;
+    for (const report::Picture& picture : report.pictures())
+        if (std::ranges::find(blobs, picture.sha256, &BlobName::sha256) == blobs.end())
+            blobs.push_back({picture.sha256, picture.media_type});
     return blobs;
 }
 
 FinishedReport read_report_folder(const fs::path& folder, const Lease& lease, std::int64_t finished_ms) {
-    json report = json::parse(read_file(folder / "report.json", max_report_bytes), nullptr, false);
-    if (!report.is_object()) throw StoreError("report.json is not a JSON object");
-    report["id"] = lease.id;
-    report["status"] = status_text(Status::done);
-    report["progress"] = 1.0;
-    report["error"] = nullptr;
-    report["created_at"] = utc_text(lease.created_ms);
-    report["finished_at"] = utc_text(finished_ms);
-    report["spec"] = json::parse(lease.spec);
-    report["spec_sha256"] = lease.spec_sha256;
-    FinishedReport finished{.report = std::move(report), .finished_ms = finished_ms};
-    finished.blobs = named_blobs(finished.report, folder);
-    std::ranges::for_each(finished.blobs, check);
+    report::Report report = read_report(folder / "report.json");
+    report.id = lease.id;
+    report.status = report::Status::done;
+    report.progress = 1;
+    report.error.reset();
+    report.created_at = utc_text(lease.created_ms);
+    report.finished_at = utc_text(finished_ms);
+    report.spec = json::parse(lease.spec);
+    report.spec_sha256 = lease.spec_sha256;
+    FinishedReport finished{.report = to_document(report), .finished_ms = finished_ms};
+    finished.blobs = named_blobs(report);
+    finished.read_blob = [folder](const std::string& sha256) { return read_file(folder / sha256, max_picture_bytes); };
+    for (const BlobName& blob : finished.blobs) {
+        check_name(blob);
+        if (sha256_hex(finished.read_blob(blob.sha256)) != blob.sha256)
+            throw StoreError("picture " + blob.sha256 + " has other bytes");
+    }
     return finished;
 }
 

@@ -16,8 +16,13 @@ fs::path attempt_path(const fs::path& folder, const std::string& id, int attempt
 
 ScratchFolder::ScratchFolder(const fs::path& folder, const std::string& id, int attempt)
     : m_path(attempt_path(folder, id, attempt)) {
-    for (int earlier = 1; earlier <= attempt; ++earlier) fs::remove_all(attempt_path(folder, id, earlier));
-    fs::create_directories(m_path);
+    fs::create_directories(folder);
+    // After a disk error there may be files that can be neither read nor removed; that is no reason for this attempt to
+    // fail.
+    std::error_code not_removed;
+    for (int earlier = 1; earlier <= attempt; ++earlier) fs::remove_all(attempt_path(folder, id, earlier), not_removed);
+    for (int another = 1; !fs::create_directory(m_path); ++another)
+        m_path = fmt::format("{}.{}", attempt_path(folder, id, attempt).string(), another);
 }
 
 ScratchFolder::~ScratchFolder() {
@@ -25,11 +30,11 @@ ScratchFolder::~ScratchFolder() {
     fs::remove_all(m_path, left_to_the_next_sweep);
 }
 
-void sweep_scratch(const fs::path& folder, Store& store) {
+void sweep_scratch(const fs::path& folder, ReportArchive& reports) {
     std::error_code none;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
         const std::string name = entry.path().filename().string();
-        const auto record = store.find(name.substr(0, name.rfind('-')));
+        const auto record = reports.find(name.substr(0, name.rfind('-')));
         std::error_code taken_by_another_sweep;
         if (!record || record->status != Status::running) fs::remove_all(entry.path(), taken_by_another_sweep);
     }

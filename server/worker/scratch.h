@@ -2,14 +2,15 @@
 #include <filesystem>
 #include <string>
 
-#include "server/jobs/store.h"
+#include "server/jobs/report_archive.h"
 
 namespace sheer {
 
-/// The folder of one attempt, FOLDER/<id>-<attempt>, removed with this object.
+/// The folder of one attempt, removed with this object: FOLDER/<id>-<attempt>, with .1, .2, ... appended if something
+/// of that name cannot be removed.
 class ScratchFolder {
   public:
-    /// Makes it, and removes those of earlier attempts. Throws std::filesystem::filesystem_error.
+    /// Makes it, and removes those of earlier attempts if possible. Throws std::filesystem::filesystem_error.
     ScratchFolder(const std::filesystem::path& folder, const std::string& id, int attempt);
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
@@ -21,7 +22,7 @@ class ScratchFolder {
     std::filesystem::path m_path;
 };
 
-/// Removes what killed workers left: the folders of jobs that are not running.
-void sweep_scratch(const std::filesystem::path& folder, Store& store);
+/// Removes the leftovers of killed workers: the folders of jobs that are not running.
+void sweep_scratch(const std::filesystem::path& folder, ReportArchive& reports);
 
 }  // namespace sheer

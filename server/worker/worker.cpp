@@ -2,8 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/core/exit_codes.h"
+#include "server/process/run_child.h"
 #include "server/worker/attempt.h"
-#include "server/worker/run_child.h"
 #include "server/worker/scratch.h"
 
 namespace sheer {
@@ -19,7 +20,7 @@ Worker::Worker(Store& store, WorkerOptions options, ClockMs clock)
     : m_store(store), m_options(std::move(options)), m_clock(std::move(clock)) {}
 
 void Worker::run(StopSignal& stop) {
-    sweep_scratch(m_options.data / "scratch", m_store);
+    sweep_scratch(m_options.scratch, m_store.reports());
     while (!stop.requested()) {
         try {
             work(stop);
@@ -42,7 +43,7 @@ void Worker::work(StopSignal& stop) {
 }
 
 bool Worker::run_next(StopSignal& stop) {
-    const std::optional<Lease> lease = m_store.lease(m_options.name);
+    const std::optional<Lease> lease = m_store.queue().lease(m_options.name);
     if (!lease) return false;
     attempt(*lease, stop);
     return true;
@@ -57,19 +58,19 @@ void Worker::attempt(const Lease& lease, StopSignal& stop) {
         set_back(lease, {report_not_kept, full ? "The archive's disk is full." : "The archive's disk fails."}, full,
                  stop);
     } catch (const std::system_error& error) {
-        // Of the scratch folder and of processes that could not be started.
+        // Errors of the scratch folder and of processes that could not be started.
         spdlog::error("job {}: {}", lease.id, error.what());
         set_back(lease, {report_not_kept, error.code().message() + "."}, means_full_disk(error.code()), stop);
     } catch (const std::exception& error) {
         spdlog::error("job {}: {}", lease.id, error.what());
-        m_store.fail(lease, {report_not_kept, "The service's log says why."}, true);
+        m_store.queue().fail(lease, {report_not_kept, "The service's log says why."}, true);
     }
 }
 
 void Worker::set_back(const Lease& lease, const JobError& error, bool lacks_room, StopSignal& stop) {
     while (!stop.requested()) {
         try {
-            return m_store.set_back(lease, error, lacks_room);
+            return m_store.queue().set_back(lease, error, lacks_room);
         } catch (const DiskError& again) {
             spdlog::error("job {} cannot be given back yet: {}", lease.id, again.what());
             wait_readable({stop.descriptor()}, static_cast<int>(disk_pause.count()));
@@ -86,8 +87,8 @@ void Worker::probe(StopSignal& stop) {
     run.wake_descriptor = stop.descriptor();
     run.keep_going = [&stop] { return !stop.requested(); };
     const ChildResult result = run_child(run);
-    if (result.status.code == 0) {
-        m_store.note_rendered();
+    if (result.status.code == exit_ok) {
+        m_store.readiness().note_rendered();
     } else if (!result.stopped) {
         spdlog::warn("this worker cannot render: exit code {}, signal {}{}", result.status.code, result.status.signal,
                      result.timed_out ? ", too slow" : "");

@@ -3,19 +3,20 @@
 #include <filesystem>
 #include <string>
 
-#include "server/jobs/clock.h"
+#include "renderer/core/clock.h"
 #include "server/jobs/lease_rules.h"
 #include "server/jobs/store.h"
-#include "server/worker/child_process.h"
-#include "server/worker/stop_signal.h"
+#include "server/process/child_process.h"
+#include "server/process/stop_signal.h"
 
 namespace sheer {
 
 struct WorkerOptions {
-    std::filesystem::path data;  ///< the service's folder
-    std::string name;            ///< unique among all workers that ever lived
+    std::filesystem::path scratch;  ///< the folder that renderers write to
+    std::string data;               ///< tells a renderer which store holds the uploaded files
+    std::string name;               ///< unique among all workers that ever lived
     std::string program = own_program;
-    std::uint64_t memory_limit_bytes = 0;  ///< of the rendering child; 0: none
+    std::uint64_t memory_limit_bytes = std::uint64_t{8} << 30;  ///< of the rendering child; 0: none
     std::chrono::milliseconds time_limit{1'800'000};
     std::chrono::milliseconds poll_interval{150};
     std::chrono::milliseconds probe_interval{30'000};
@@ -27,18 +28,18 @@ class Worker {
   public:
     Worker(Store& store, WorkerOptions options, ClockMs clock);
 
-    /// Works until a stop is asked for; a job that runs then goes back to the queue.
+    /// Works until a stop is requested; a running job then goes back to the queue.
     void run(StopSignal& stop);
     /// Runs one job if there is one.
     bool run_next(StopSignal& stop);
-    /// Renders one pixel and notes the time if that works.
+    /// Renders one pixel and records the time if that works.
     void probe(StopSignal& stop);
 
   private:
-    /// What to do next, or nothing but to wait.
+    /// Does the next thing that is due, or waits.
     void work(StopSignal& stop);
     void attempt(const Lease& lease, StopSignal& stop);
-    /// Until the store takes it, or the lease is lost.
+    /// Tries until the store accepts it or the lease is lost.
     void set_back(const Lease& lease, const JobError& error, bool lacks_room, StopSignal& stop);
 
     Store& m_store;

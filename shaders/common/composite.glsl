@@ -1,7 +1,7 @@
-// Lays a front-to-back accumulation (premultiplied colour, transmittance) over what is there: SCCG 2010, section 2.
-layout(binding = 8) uniform sampler2D u_accumulation;
+// Lays a front-to-back accumulation (premultiplied color, transmittance) over what is there: SCCG 2010, section 2.
+uniform sampler2D u_accumulation;
 
-layout(location = 0) out vec4 o_color;  // blend ONE, SRC_ALPHA for colour; ZERO, ONE for alpha
+layout(location = 0) out vec4 o_color;  // blend ONE, SRC_ALPHA for color; ZERO, ONE for alpha
 
 void main() {
     o_color = texelFetch(u_accumulation, ivec2(gl_FragCoord.xy), 0);

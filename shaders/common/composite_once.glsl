@@ -1,7 +1,7 @@
-// Lays a front-to-back accumulation (premultiplied colour, transmittance) over the opaque picture, both in 32-bit floats:
-// SCCG 2010, section 2, with the target's rounding as the only one.
-layout(binding = 8) uniform sampler2D u_opaque;
-layout(binding = 9) uniform sampler2D u_accumulation;
+// Lays a front-to-back accumulation (premultiplied color, transmittance) over the opaque picture, both in 32-bit
+// floats: SCCG 2010, section 2, with the target's rounding as the only one.
+uniform sampler2D u_opaque;
+uniform sampler2D u_accumulation;
 
 layout(location = 0) out vec4 o_color;  // no blending
 

@@ -1,4 +1,4 @@
-layout(binding = 8) uniform sampler2D u_color;
+uniform sampler2D u_color;
 
 layout(location = 0) out vec4 o_color;  // no blending
 

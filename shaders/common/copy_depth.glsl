@@ -1,6 +1,6 @@
-layout(binding = 8) uniform sampler2D u_depth;
+uniform sampler2D u_depth;
 
-// No colour output; depth test ALWAYS with depth writes.
+// No color output; depth test ALWAYS with depth writes.
 void main() {
     gl_FragDepth = texelFetch(u_depth, ivec2(gl_FragCoord.xy), 0).r;
 }

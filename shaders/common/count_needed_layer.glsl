@@ -1,11 +1,11 @@
 // Blends one peeled layer as F2B does, and counts the fragments that find at least u_threshold of the transmittance left.
-// Reads the texture that it draws to, each texel once and by the fragment that writes it: defined after a texture
-// barrier (OpenGL 4.5, section 9.3.1).
+// Reads the texture that it draws to, each texel once and by the fragment that writes it, which is defined after a
+// texture barrier (OpenGL 4.5, section 9.3.1).
 uniform float u_threshold;
 
-layout(binding = 8) uniform sampler2D u_alpha;
-layout(binding = 9) uniform sampler2D u_layer_depth;
-layout(binding = 12) uniform sampler2D u_layer;
+uniform sampler2D u_alpha;
+uniform sampler2D u_layer_depth;
+uniform sampler2D u_layer;
 layout(binding = 0, r32ui) uniform restrict uimage2D u_needed;
 
 layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA

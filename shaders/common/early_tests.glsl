@@ -1,4 +1,4 @@
-// A stand-in for a method's shader: a loop that takes long, then whatever the method does that may put the tests off.
+// A stand-in for a method's shader: a long loop, then what the method does that may delay the tests.
 // Set before: start(), cut(), and o_color, the output.
 uniform int u_iterations;
 

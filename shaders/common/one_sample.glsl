@@ -1,6 +1,6 @@
 // One sample of each pixel.
-layout(binding = 8) uniform sampler2DMS u_color;
-layout(binding = 9) uniform sampler2DMS u_depth;
+uniform sampler2DMS u_color;
+uniform sampler2DMS u_depth;
 
 uniform int u_sample;
 

@@ -1,4 +1,4 @@
-// Set before: SHEER_MASKED, 1 where the scene has materials with a cutoff.
+// Set before: SHEER_MASKED, 1 if the scene has materials with a cutoff.
 layout(location = 0) out vec4 o_color;  // no blending
 
 void main() {

@@ -1,7 +1,7 @@
 // Passes where less than u_threshold of the transmittance of a front-to-back accumulation is left. No early fragment
 // tests: depth must not be written before the discard. Reads of a channel that is drawn to at the same time would be
 // undefined, so the framebuffer has a depth buffer only.
-layout(binding = 8) uniform sampler2D u_accumulation;
+uniform sampler2D u_accumulation;
 
 uniform float u_threshold;
 

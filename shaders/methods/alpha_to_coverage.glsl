@@ -1,6 +1,6 @@
 uniform float u_least_alpha;
 
-// No blending, alpha masked off; it becomes the samples that are covered. Depth test and depth writes.
+// No blending, alpha not written; it decides which samples are covered. Depth test and depth writes.
 layout(location = 0) out vec4 o_color;
 
 void main() {

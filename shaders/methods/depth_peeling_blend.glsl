@@ -1,4 +1,4 @@
-layout(binding = 12) uniform sampler2D u_layer;
+uniform sampler2D u_layer;
 
 layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA
 

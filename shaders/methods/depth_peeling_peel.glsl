@@ -1,6 +1,6 @@
-layout(binding = 9) uniform sampler2D u_opaque_depth;
-layout(binding = 10) uniform sampler2D u_last_depth;
-layout(binding = 11) uniform usampler2D u_last_primitive;
+uniform sampler2D u_opaque_depth;
+uniform sampler2D u_last_depth;
+uniform usampler2D u_last_primitive;
 
 // No blending; the depth test keeps the nearest.
 layout(location = 0) out vec4 o_color;

@@ -1,6 +1,6 @@
 layout(early_fragment_tests) in;
 
-// No colour output: the colour mask is off.
+// No color output: the color mask is off.
 void main() {
     begin_fragment();
     vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);

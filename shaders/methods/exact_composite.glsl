@@ -1,4 +1,4 @@
-layout(binding = 8) uniform sampler2D u_opaque;
+uniform sampler2D u_opaque;
 
 layout(location = 0) out vec4 o_color;  // no blending: the target's rounding is the only one
 

@@ -1,5 +1,5 @@
 // Per-pixel lists of fragments. A node is 7 words: red, green, blue, alpha, depth, primitive, next. "next" and the heads
-// are 0 at the end of a list, else the node's number plus 1.
+// are 0 at the end of a list, otherwise the node's number plus 1.
 
 layout(std430, binding = 0) coherent buffer Nodes { uint nodes[]; };
 layout(std430, binding = 1) coherent buffer Heads {
@@ -20,7 +20,7 @@ uint first_word(uint link) { return (link - 1u) * node_words; }
 uint next_of(uint link) { return nodes[first_word(link) + 6u]; }
 void set_next(uint link, uint next) { nodes[first_word(link) + 6u] = next; }
 
-// Nearer first; of equal depths the later submitted primitive counts as nearer.
+// Nearer first; of equal depths, the primitive submitted later counts as nearer.
 bool goes_before(uint a, uint b) {
     float depth_a = uintBitsToFloat(nodes[first_word(a) + 4u]), depth_b = uintBitsToFloat(nodes[first_word(b) + 4u]);
     if (depth_a != depth_b) return depth_a < depth_b;

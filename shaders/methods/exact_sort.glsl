@@ -2,7 +2,7 @@
 uniform uint u_run;
 uniform int u_merges;
 
-// No colour output: the colour mask is off.
+// No color output: the color mask is off.
 void main() {
     uint pixel = pixel_number();
     uint head = heads[pixel];

@@ -1,6 +1,6 @@
-// Set before: INVERTED, 1 (also where it is not set) or 0: alpha is 1 - opacity, or the opacity.
-#ifndef INVERTED
-#define INVERTED 1
+// Set before: SHEER_INVERTED, 1 (the default) or 0: alpha is 1 - opacity, or the opacity.
+#ifndef SHEER_INVERTED
+#define SHEER_INVERTED 1
 #endif
 
 layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC_ALPHA; see AlphaForm for the others
@@ -9,5 +9,5 @@ layout(location = 0) out vec4 o_color;  // blend DST_ALPHA, ONE; alpha ZERO, SRC
 void main() {
     begin_fragment();
     vec4 work = clamp(real_work(v_uv, v_tint), 0.0, 1.0);
-    o_color = vec4(work.rgb * work.a, INVERTED != 0 ? 1.0 - work.a : work.a);
+    o_color = vec4(work.rgb * work.a, SHEER_INVERTED != 0 ? 1.0 - work.a : work.a);
 }

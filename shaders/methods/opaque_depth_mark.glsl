@@ -1,6 +1,6 @@
 // The greatest depth where less than u_threshold of the transmittance of a front-to-back accumulation is left, 0 in every
-// other pixel, so that nothing need be cleared. No colour output; depth test ALWAYS with depth writes.
-layout(binding = 8) uniform sampler2D u_accumulation;
+// other pixel, so that nothing needs to be cleared. No color output; depth test ALWAYS with depth writes.
+uniform sampler2D u_accumulation;
 
 uniform float u_threshold;
 

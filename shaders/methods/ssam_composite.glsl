@@ -1,14 +1,14 @@
 // Listing 3.2. The additive mask is clamped here because float targets do not saturate.
 
-layout(binding = 8) uniform sampler2D u_opaque;
-layout(binding = 9) uniform sampler2D u_mask;
-layout(binding = 10) uniform sampler2D u_foliage;
+uniform sampler2D u_opaque;
+uniform sampler2D u_mask;
+uniform sampler2D u_foliage;
 
 uniform float u_additive_part;
 uniform int u_squared;
 
 layout(location = 0) out vec4 o_color;  // no blending
-layout(location = 1) out float o_blend;  // the factor, for whoever asks; frames have no such output
+layout(location = 1) out float o_blend;  // the factor, for explanations; frames do not have this output
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);

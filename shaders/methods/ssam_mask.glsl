@@ -1,6 +1,6 @@
 // Listing 3.1.
 
-layout(location = 0) out vec4 o_mask;  // blend MAX for colour; ADD with ONE, ONE for alpha
+layout(location = 0) out vec4 o_mask;  // blend MAX for color; ADD with ONE, ONE for alpha
 
 void main() {
     begin_fragment();

@@ -1,8 +1,8 @@
-layout(binding = 8) uniform sampler2DMS u_depth;
+uniform sampler2DMS u_depth;
 
 uniform int u_samples;
 
-// No colour output: the colour mask is off. The depth test always passes.
+// No color output: the color mask is off. The depth test always passes.
 void main() {
     float nearest = 1.0;
     for (int i = 0; i < u_samples; ++i) nearest = min(nearest, texelFetch(u_depth, ivec2(gl_FragCoord.xy), i).r);

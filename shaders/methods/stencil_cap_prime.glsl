@@ -1,2 +1,2 @@
-// No colour output; depth test LESS with depth writes.
+// No color output; depth test LESS with depth writes.
 void main() {}

@@ -1,6 +1,6 @@
 #version 450 core
-// Two triangles for each pixel of the coarse picture, at its depth; none where the coarse pixel did not reach the cap.
-layout(binding = 8) uniform sampler2D u_coarse_depth;
+// Two triangles for each pixel of the coarse picture, at its depth; none if the coarse pixel did not reach the cap.
+uniform sampler2D u_coarse_depth;
 
 const vec2 corners[6] = vec2[](vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(0, 1), vec2(1, 0), vec2(1, 1));
 

@@ -1,4 +1,4 @@
-// Counts, pixel by pixel, the fragments whose own shading was refused an iteration. No colour output.
+// Counts, for each pixel, the fragments whose user-defined shading was refused an iteration. No color output.
 layout(binding = 0, r32ui) uniform restrict uimage2D u_refused;
 
 uniform bool u_opaque;

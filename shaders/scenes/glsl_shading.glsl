@@ -1,11 +1,11 @@
-// A real_work that is the user's own. Set before: SHEER_TEXTURED, 0 or 1, and SHEER_ITERATIONS.
+// The user's own real_work. Set before: SHEER_TEXTURED, 0 or 1, and SHEER_ITERATIONS.
 
-// A driver may leave an endless loop without a word. So the user's loops ask before each iteration whether they may, and
-// a pass that is not timed finds the fragments that were refused (renderer/frame/loop_check.h).
-int sheer_iterations_left = 0;  // under 0 once an iteration was refused
+// A driver may leave an endless loop silently. So the user's loops check before each iteration whether it is allowed,
+// and a pass that is not timed finds the fragments that were refused one (renderer/counting/loop_check.h).
+int sheer_iterations_left = 0;  // negative once an iteration was refused
 
 #ifdef SHEER_REPORT_LOOPS
-// Set where a method is drawn once to see whether all of its own fragments, at its own samples, end their loops.
+// Set when a method is drawn once to check whether all of its fragments, at its own samples, end their loops.
 layout(std430, binding = SHEER_REPORT_LOOPS) buffer SheerRefused { uint sheer_any_refused; };
 #endif
 
@@ -20,7 +20,7 @@ bool sheer_next() {
 #if SHEER_TEXTURED
 layout(binding = 0) uniform sampler2DArray u_textures;
 
-// From derivatives, which mean nothing once neighbours have parted ways: worked out before any branch.
+// From derivatives, which are undefined once neighbours have diverged: computed before any branch.
 float sheer_level_of_detail;
 
 vec4 sample_texture(int index, vec2 uv) {
@@ -36,7 +36,7 @@ void begin_fragment() {
 #endif
 }
 
-// An integer division of the least number by -1 has no result, and some drivers die of it. The user's a / b, whatever
+// An integer division of the least number by -1 has no result, and some drivers crash on it. The user's a / b, whatever
 // its type, is a * sheer_sign(b) / sheer_magnitude(b), which is the same and never divides an integer by -1.
 #define SHEER_DIVISOR(T, ONE)                   \
     T sheer_magnitude(T by) { return by; }      \
@@ -75,7 +75,7 @@ SHEER_DIVISOR(dvec4, double)
 // The user's function follows.
 vec4 sheer_own_work(vec2 uv, vec4 tint);
 
-// 1. As in real_work.glsl, only what stands in a loop is left out for discarded fragments on llvmpipe.
+// 1. As in real_work.glsl, llvmpipe skips only what is in a loop for discarded fragments.
 uniform int u_reads;
 
 vec4 real_work(vec2 uv, vec4 tint) {

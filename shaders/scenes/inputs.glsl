@@ -1,5 +1,6 @@
-// What the vertex stage hands to every fragment of a scene. Set before: SHEER_FLAT_TINT, 1 where every triangle has one
-// tint, which then reaches the fragments as it is: interpolated, 0.5 would now and then be a little less than 0.5.
+// The inputs of every fragment of a scene. Set before: SHEER_HAS_CAMERA, 0 or 1, and SHEER_FLAT_TINT, 1 if every
+// triangle has one tint, which then reaches the fragments unchanged: interpolated, 0.5 would sometimes be slightly
+// less than 0.5.
 in vec3 v_position;  // in the scene's own space
 in vec2 v_uv;
 #if SHEER_FLAT_TINT
@@ -9,3 +10,12 @@ in vec4 v_tint;
 flat in uint v_primitive;
 flat in uint v_material;
 
+// The fragment's distance from the camera along its axis, in the scene's units. For scenes without a camera, which
+// have no units, it is the depth, 0 to 1.
+float sheer_distance() {
+#if SHEER_HAS_CAMERA
+    return 1.0 / gl_FragCoord.w;
+#else
+    return gl_FragCoord.z;
+#endif
+}

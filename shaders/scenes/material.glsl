@@ -1,8 +1,8 @@
 // The shading of a model: the picture of its material, if it has one, times the tint, and what the material emits. A
 // main() that uses real_work calls begin_fragment() first. Set before:
-// PICTURE_ARRAYS  how many arrays the materials' pictures lie in; 0 where no material has one
-// SAMPLERS        1 where a picture is not simply repeated and filtered trilinearly
-// EMISSIVE        1 where a material emits light
+// PICTURE_ARRAYS  how many arrays hold the materials' pictures; 0 if no material has one
+// SAMPLERS        1 if a picture is not simply repeated and filtered trilinearly
+// EMISSIVE        1 if a material emits light
 
 #if PICTURE_ARRAYS > 0
 layout(binding = 3) uniform sampler2DArray u_pictures[PICTURE_ARRAYS];
@@ -10,7 +10,7 @@ layout(binding = 3) uniform sampler2DArray u_pictures[PICTURE_ARRAYS];
 // As in real_work.glsl: derivatives are taken before any branch.
 vec2 uv_dx, uv_dy;
 
-// Samplers are picked by constants: an index that differs between fragments is not allowed.
+// Samplers are chosen by constants: an index that differs between fragments is not allowed.
 #if PICTURE_ARRAYS == 1
 #define PICK(array, F) F(0)
 #elif PICTURE_ARRAYS == 2
@@ -51,7 +51,7 @@ float wrapped(float at, int wrap) {
     return 1.0 - abs(mod(at, 2.0) - 1.0);
 }
 
-// One mipmap level. The array repeats; half a texel within the edge nothing of the other side is mixed in.
+// One mipmap level. The array repeats; half a texel inside the edge, nothing from the opposite side is mixed in.
 vec4 read_level(SheerPicture picture, vec2 uv, int level, bool nearest) {
     ivec2 wrap = ivec2(picture.sampling & 3, picture.sampling >> 2 & 3);
     vec2 at = vec2(wrapped(uv.x, wrap.x), wrapped(uv.y, wrap.y));
@@ -71,7 +71,7 @@ vec4 sample_picture(SheerPicture picture, vec2 uv, vec2 dx, vec2 dy) {
     float detail = level_of_detail(picture, dx, dy);
     bool magnified = detail <= 0.0;
     bool nearest = (picture.sampling & (magnified ? 16 : 32)) != 0;
-    int mipmaps = picture.sampling >> 6;  // 0 none, 1 the nearest, 2 the two about
+    int mipmaps = picture.sampling >> 6;  // 0 none, 1 the nearest, 2 the nearest two
 #define LEVELS(i) textureQueryLevels(u_pictures[i])
     int last = (PICK(picture.array, LEVELS)) - 1 - picture.level;
     if (magnified || mipmaps == 0) detail = 0.0;

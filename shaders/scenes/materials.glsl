@@ -1,4 +1,4 @@
-// The surfaces of a model, whatever the shading. In a scene that has materials it follows the inputs.
+// The surfaces of a model, whatever the shading. In a scene with materials it comes after the inputs.
 struct SheerPicture {
     int array;     // of u_pictures; -1 for no picture
     int layer;
@@ -10,7 +10,7 @@ struct SheerMaterial {
     SheerPicture base;
     SheerPicture emission;
     vec3 emitted;  // linear light
-    float cutoff;  // opaque fragments of less alpha are not there; 0 where all are
+    float cutoff;  // opaque fragments with less alpha are not drawn; 0 draws all
 };
 
 layout(std430, binding = 4) readonly buffer SheerMaterials { SheerMaterial sheer_materials[]; };

@@ -4,14 +4,14 @@
 #if TEXTURED
 layout(binding = 0) uniform sampler2DArray u_textures;
 
-// 1, 4 or 16. A uniform, so that the loop stays a loop: llvmpipe runs both sides of a branch, and only a loop that no
-// lane is in any more is left early. Unrolled, a discarded fragment would cost as much as a shaded one.
+// 1, 4 or 16. A uniform, so that the loop stays a loop: llvmpipe runs both sides of a branch and only leaves a loop
+// early, once no lane is in it. If the loop were unrolled, a discarded fragment would cost as much as a shaded one.
 uniform int u_reads;
 
 const int texture_count = 4;
 
-// Level of detail of every read. It comes from derivatives, which mean nothing once neighbours have parted ways, so it is
-// worked out before any branch.
+// Level of detail of every read. It comes from derivatives, which are undefined once neighbours have diverged, so it is
+// computed before any branch.
 float level_of_detail;
 
 void begin_fragment() {
@@ -28,7 +28,7 @@ vec2 position(vec2 uv, float number) {
 #endif
 }
 
-// The first read shows through the mean of all, so that the picture keeps its shapes however many there are.
+// The first read shows through the mean of all, so that the picture keeps its shapes however many reads there are.
 vec4 real_work(vec2 uv, vec4 tint) {
     vec4 first = vec4(0.0), sum = vec4(0.0);
     for (int i = 0; i < u_reads; ++i) {

@@ -21,8 +21,16 @@ out vec2 v_emission_uv;
 // Passes that are drawn with different programs must meet at equal depths.
 invariant gl_Position;
 
+#ifdef SHEER_SKIPS
+bool sheer_skips(uint primitive);
+#endif
+
 void main() {
     gl_Position = u_view_projection * vec4(a_position, 1.0);
+#ifdef SHEER_SKIPS
+    // All its vertices beyond one side of the view, so that nothing of it is left to rasterise.
+    if (sheer_skips(a_primitive)) gl_Position = vec4(2.0, 0.0, 0.0, 1.0);
+#endif
     v_position = a_position;
     v_uv = a_uv;
     v_tint = a_tint;

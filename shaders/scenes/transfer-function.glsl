@@ -1,13 +1,13 @@
 
-// The value of a volume at the fragment, and the colour that a transfer function gives it. Alpha is that of a slice: the
-// distance between slices has been worked in. Scene space is camera space.
+// The value of a volume at the fragment, and the color that a transfer function gives it. Alpha is that of a slice: it
+// already includes the distance between slices. Scene space is camera space.
 
 layout(binding = 1) uniform sampler3D u_volume;
-layout(binding = 2) uniform sampler2D u_transfer;  // straight colour and alpha by value, one row
+layout(binding = 2) uniform sampler2D u_transfer;  // straight color and alpha by value, one row
 
 uniform mat4 u_to_texture;
 uniform vec2 u_value;   // a value is what the texture gives times x, plus y
-uniform int u_light;    // 1: lit by the gradient, 0: the colour alone
+uniform int u_light;    // 1: lit by the gradient, 0: the color alone
 uniform vec3 u_to_sun;  // of length 1
 
 void begin_fragment() {}
@@ -16,7 +16,7 @@ float value_at(vec3 at) {
     return textureLod(u_volume, at, 0.0).r * u_value.x + u_value.y;
 }
 
-// Lit from both sides, as what lies to either side of a boundary may be the clear one. Where values hardly differ there
+// Lit from both sides, because the clear material may be on either side of a boundary. Where values hardly differ there
 // is no boundary to light.
 vec3 lit(vec3 color, vec3 at) {
     vec3 voxel = 1.0 / vec3(textureSize(u_volume, 0)), difference;
@@ -40,7 +40,7 @@ vec4 real_work(vec2 uv, vec4 tint) {
     vec3 at = (u_to_texture * vec4(v_position, 1.0)).xyz;
     float entries = float(textureSize(u_transfer, 0).x);
     vec4 color = textureLod(u_transfer, vec2((value_at(at) * (entries - 1.0) + 0.5) / entries, 0.5), 0.0);
-    // A loop in place of a branch: llvmpipe runs both sides of a branch, but leaves a loop that no lane is in.
+    // A loop instead of a branch: llvmpipe runs both sides of a branch, but leaves a loop once no lane is in it.
     int visible = color.a > 0.0 ? u_light : 0;
     for (int i = 0; i < visible; ++i) color.rgb = lit(color.rgb, at);
     return color;

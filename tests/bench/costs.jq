@@ -8,16 +8,16 @@ def row($name; $key; $size; $yardstick):
     | "| \($name) | \($size | sub("/"; " x ")) | \($ms | rounded) | \($ms / ms($yardstick + "/" + $size) | rounded) |";
 first($all[] | select(.run_name | startswith("job/"))) as $job
 | ms("metric/flip/1920/1080") as $flip | ms("metric/ssim/1920/1080") as $ssim
-| "# What Sheer's own work costs
+| "# The cost of Sheer's own work
 
 Made by `./dev bench` (\($cores) cores of \(.context.mhz_per_cpu) MHz, load \(.context.load_avg[0] | rounded) at the start, medians of 5 interleaved
-repetitions). Times are of this machine at this moment; the ratios hold elsewhere.
+repetitions). Times are valid only for this machine and load; the ratios are valid on others too.
 
 ## Pictures
 
-The yardstick is reading every value of both pictures once on one core.
+The unit is reading every value of both pictures once on one core.
 
-| work | size | ms | times the yardstick |
+| work | size | ms | in units |
 |---|---|---|---|",
 (("512/512", "1920/1080") as $size
 | row("reading both pictures"; "read_both"; $size; "read_both"),
@@ -32,9 +32,9 @@ NVIDIA's reference tool takes 700 to 820 ms for FLIP of 1920 x 1080 on both core
 
 ## Frames
 
-Quads with 4x4 textures, random, 256 x 256 pixels in 32-bit floats; the yardstick is the frame of `b2f` with as many.
+Quads with 4x4 textures, random, 256 x 256 pixels in 32-bit floats; the unit is a frame of `b2f` with as many quads.
 
-| work | quads | ms | times the yardstick |
+| work | quads | ms | in units |
 |---|---|---|---|",
 (("64", "512") as $count
 | row("`b2f`"; "frame/b2f"; $count; "frame/b2f"),

@@ -1,4 +1,4 @@
-// What the parts of a frame that are ours cost beside drawing: sorting the primitives, resolving the lists.
+// The cost of our parts of a frame besides drawing: sorting the primitives, resolving the lists.
 #include <benchmark/benchmark.h>
 
 #include "../render/render_test.h"

@@ -1,12 +1,15 @@
-// A whole job as the service runs one, and the share of it that is not rendering.
+// A whole job as the service runs it, and the share of it that is not rendering.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 
 #include "../render/render_test.h"
 #include "../unit/temporary_folder.h"
-#include "renderer/compare.h"
+#include "renderer/compare/compare.h"
+#include "renderer/core/clock.h"
+#include "renderer/core/sha256.h"
 #include "renderer/files/blob_sink.h"
+#include "renderer/params/json_text.h"
 #include "renderer/report/report.h"
 #include "server/archive/sqlite_store.h"
 #include "server/worker/report_folder.h"
@@ -16,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Adds up the time for which it runs.
+/// Adds up the times for which it runs.
 class Stopwatch {
   public:
     void run(bool on) {
@@ -45,18 +48,18 @@ void job(benchmark::State& state) {
              {"image", {{"width", 384}, {"height", 384}}},
              {"methods", {"b2f", "f2b", "f2bd", "f2bx"}},
              {"timing", {{"warmup", 1}, {"rounds", 1000}, {"max_seconds", state.range(0)}}}});
-        store.submit({.id = "1",
-                      .spec = spec.canonical_text(),
-                      .spec_sha256 = sha256_hex(spec.canonical_text()),
-                      .idempotency = {}},
-                     1);
-        const auto lease = store.lease("bench");
+        store.queue().submit({.id = "1",
+                              .spec = spec.canonical_text(),
+                              .spec_sha256 = sha256_hex(spec.canonical_text()),
+                              .idempotency = {}},
+                             1);
+        const auto lease = store.queue().lease("bench");
         rendering.run(true);
         const auto context = make_context("egl");
         rendering.run(false);
         NoAssets assets;
         std::filesystem::create_directory(folder.path() / "out");
-        ContentSink sink(folder.path() / "out");
+        ContentSink sink(folder.path() / "out", "/pictures");
         ReportMaker maker(spec, describe_device(*context), &sink, utc_now());
         compare(
             spec, *context, assets,
@@ -65,8 +68,8 @@ void job(benchmark::State& state) {
                 rendering.run(false);
                 maker.add(run);
             });
-        std::ofstream(folder.path() / "out" / "report.json") << maker.finish().dump();
-        store.commit(*lease, read_report_folder(folder.path() / "out", *lease, system_now_ms()));
+        std::ofstream(folder.path() / "out" / "report.json") << json_line(to_document(maker.finish()));
+        store.queue().commit(*lease, read_report_folder(folder.path() / "out", *lease, system_now_ms()));
         const double all_s = std::chrono::duration<double>(Clock::now() - begin).count();
         state.counters["not_rendering_percent"] = 100 * (all_s - rendering.sum_s()) / all_s;
     }

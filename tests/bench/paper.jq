@@ -1,14 +1,14 @@
-# The reports of the suites to docs/results/paper-tables.md: a column for each device, in the order in which they come.
+# Makes docs/results/paper-tables.md from the suites' reports: a column for each device, in the order of the input.
 def shown: if . == null then "-" elif type == "array" then map(shown) | join(" to ")
     elif (. | fabs) >= 100 then round | tostring else . * 1000 | round / 1000 | tostring end;
 def place: to_entries | map("\(.key | sub(".*/"; "")) \(.value)") | join(", ");
 def cells: "| " + join(" | ") + " |";
-# "llvmpipe (LLVM 15.0.6, 256 bits)" is llvmpipe in the head of a column.
+# "llvmpipe (LLVM 15.0.6, 256 bits)" becomes llvmpipe in the heading of a column.
 def short: .device.renderer | sub(" *[(/].*"; "");
 "# The paper's tables, measured
 
-Made by `./dev paper` from the seven suites; what they mean is in [paper.md](paper.md). Speedups are over `b2f` of the same
-rounds, with the 95 % interval that the number of methods is allowed for.
+Made by `./dev paper` from the seven suites; [paper.md](paper.md) explains them. Speedups are over `b2f` of the same rounds,
+with a 95 % interval that is corrected for the number of methods.
 
 - Published on: \(.[0].suite.device)",
 (reduce .[] as $report ([]; if any(.[]; .device == $report.device) then . else . + [$report] end)
@@ -18,7 +18,7 @@ rounds, with the 95 % interval that the number of methods is allowed for.
 ## \($suite.id | sub("paper-table-"; "Table ")): \($suite.title | ascii_downcase)
 ",
 (.[] | [.runs[].rounds.done] as $rounds
-    | "- \(short): \(.spec.image.width) x \(.spec.image.height) pixels, \([$rounds | min, max] | unique | map(tostring) | join(" to ")) rounds a point. `\(.provenance.rerun)`"),
+    | "- \(short): \(.spec.image.width) x \(.spec.image.height) pixels, \([$rounds | min, max] | unique | map(tostring) | join(" to ")) rounds per point. `\(.provenance.rerun)`"),
 "",
 (["at", "method", "figure", "published"] + map("\(short)", "95 %") | cells, (map("---") | cells)),
 (range($suite.figures | length) as $i | $suite.figures[$i]

@@ -1,4 +1,4 @@
-// What the measuring and the encoding of pictures cost.
+// The cost of comparing and encoding pictures.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Pair {
     Image reference, test;
 };
 
-/// Reads each value of both pictures once: the least that any metric could cost.
+/// Reads each value of both pictures once: the lower bound of the cost of any metric.
 void read_both(benchmark::State& state) {
     const Pair pair(state);
     for (auto _ : state) {

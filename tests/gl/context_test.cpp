@@ -1,5 +1,7 @@
 #include "renderer/gl/context.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 #include "tests/gl/gl_test.h"
@@ -79,7 +81,7 @@ TEST_P(EachContext, CanBeMadeAgainAfterItIsGone) {
     }
 }
 
-/// Two contexts number their objects alike, so that a call that lands in the wrong one shows its colour.
+/// Two contexts number their objects in the same way, so a call that reaches the wrong one shows the other color.
 void expect_side_by_side(Context& first, Context& second) {
     first.make_current();
     const Target a(first.gl(), 1);
@@ -135,7 +137,7 @@ TEST_P(EachPair, OneOutlivesTheOther) {
     m_first->check("after the other has gone");
 }
 
-/// Without DISPLAY while this is alive.
+/// Unsets DISPLAY while it exists.
 class NoDisplay {
   public:
     NoDisplay() {

@@ -42,12 +42,12 @@ TEST_P(EachDebugContext, AnErrorIsThrownThoughDebugOutputIsOff) {
 
 TEST_P(EachDebugContext, ThePassIsNamed) {
     FrameTimer timer(context());
-    timer.begin_frame(false);
+    FrameTimer::Frame frame = timer.frame(false);
     {
         const auto pass = timer.pass("tidy the fragments", Phase::finalization);
         gl().Enable(0xDEAD);
     }
-    timer.end_frame();
+    frame.end();
     gl().Enable(0xDEAE);
     const std::string text = error();
     EXPECT_THAT(text, HasSubstr("tidy the fragments: GL_INVALID_ENUM"));

@@ -1,45 +1,62 @@
 #include "renderer/gl/functions.h"
 
-#include <set>
+#include <algorithm>
+#include <string_view>
 
+#include "tests/gl/fake_driver.h"
 #include "tests/gl/gl_test.h"
+#include "used_gl_functions.h"
 
 namespace sheer::gl::functions_test {
 namespace {
 
-void* some_address() {
-    static int place = 0;
-    return &place;
+struct Device {
+    static constexpr GLint major = 4, minor = 5;
+    static constexpr const char* renderer = "a driver that lacks a function";
+};
+
+void* resolve(const char* name) {
+    return FakeDriver<Device>::resolve(name);
+}
+
+Resolver without(std::string_view lacking) {
+    return [lacking](const char* name) { return name == lacking ? nullptr : resolve(name); };
+}
+
+bool is_used(std::string_view name) {
+    return std::ranges::find(used_functions, name) != std::end(used_functions);
 }
 
 TEST(LoadFunctions, NamesTheMissingOne) {
-    const auto resolve = [](const char* name) {
-        return std::string_view(name) == "glTextureBarrier" ? nullptr : some_address();
-    };
-    EXPECT_THAT(message_of<RenderError>([&] { load_functions(resolve); }),
+    EXPECT_THAT(message_of<RenderError>([] { load_functions(without("glTextureBarrier")); }),
                 testing::HasSubstr("lacks glTextureBarrier,"));
 }
 
-TEST(LoadFunctions, LeavesOptionalOnesNull) {
-    const std::set<std::string_view> absent{"glSpecializeShader", "glMultiDrawElementsIndirectCount",
-                                            "glFramebufferFetchBarrierEXT"};
-    const Functions gl =
-        load_functions([&](const char* name) { return absent.contains(name) ? nullptr : some_address(); });
-    EXPECT_EQ(gl.SpecializeShader, nullptr);
-    EXPECT_EQ(gl.FramebufferFetchBarrierEXT, nullptr);
-    EXPECT_NE(gl.BlendBarrierKHR, nullptr);
-    EXPECT_NE(gl.Clear, nullptr);
+/// Whichever function a driver lacks, the error names it, even if glad itself needs it to load the others.
+TEST(LoadFunctions, RefusesToBeWithoutAnyThatSheerCalls) {
+    for (const char* name : used_functions) {
+        EXPECT_THAT(message_of<RenderError>([&] { load_functions(without(name)); }),
+                    testing::HasSubstr(std::string("lacks ") + name + ","));
+    }
 }
 
-TEST(LoadFunctions, AsksForEachNameOnce) {
-    std::multiset<std::string> asked;
-    load_functions([&](const char* name) {
-        asked.insert(name);
-        return some_address();
-    });
-    EXPECT_EQ(asked.count("glClear"), 1);
-    EXPECT_EQ(asked.size(), std::set<std::string>(asked.begin(), asked.end()).size());
-    for (const std::string& name : asked) EXPECT_TRUE(name.starts_with("gl")) << name;
+TEST(LoadFunctions, DoesWithoutThoseThatSheerNeverCalls) {
+    for (const char* name : {"glTexImage1D", "glDispatchCompute", "glCreateShaderProgramv"}) {
+        ASSERT_FALSE(is_used(name));
+        EXPECT_NO_THROW(load_functions(without(name)));
+    }
+    const Functions gl = load_functions([](const char* name) { return is_used(name) ? resolve(name) : nullptr; });
+    EXPECT_NE(gl.Enable, nullptr);
+    EXPECT_EQ(gl.TexImage1D, nullptr);
+}
+
+/// One of each way to name a function: gl.Name(...), m_gl->Name(...), m_gl.Name(...), gl.Name as an argument and
+/// &Functions::Name.
+TEST(UsedFunctions, AreFoundHoweverTheyAreNamed) {
+    for (const char* name :
+         {"glDebugMessageControl", "glProgramUniform1f", "glTextureBarrier", "glGetShaderInfoLog", "glIsVertexArray"}) {
+        EXPECT_TRUE(is_used(name)) << name;
+    }
 }
 
 }  // namespace

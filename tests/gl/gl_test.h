@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/objects.h"
 
@@ -19,7 +19,7 @@ inline constexpr std::string_view full_screen_vertex_shader = R"(#version 450
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }
 )";
 
-/// A test that runs on each kind of context; "glfw" is skipped where there is no display.
+/// A test that runs on each kind of context; "glfw" is skipped if there is no display.
 class EachContext : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
@@ -42,7 +42,7 @@ inline const auto context_name = [](const testing::TestParamInfo<const char*>& i
 
 using Pixel = std::array<GLubyte, 4>;
 
-/// A framebuffer of one colour texture.
+/// A framebuffer of one color texture.
 struct Target {
     Target(const Functions& functions, int size_px, GLenum format = GL_RGBA8)
         : gl(functions), color(make_texture_2d(gl, "target", format, size_px, size_px)) {
@@ -80,7 +80,7 @@ std::string message_of(Action&& action) {
     return {};
 }
 
-/// The log's lines, as "level text", while this is alive.
+/// Collects the log's lines, as "level text", while it exists.
 class LogCapture {
   public:
     LogCapture() : m_before(spdlog::default_logger()) {

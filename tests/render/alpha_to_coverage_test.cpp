@@ -29,7 +29,7 @@ class AlphaToCoverage : public testing::Test {
     float gray_of(const std::vector<json>& layers, const json& method = coverage()) {
         return picture(layers, method).pixel(2, 1)[0];
     }
-    /// How alpha becomes a number of samples is the device's own rule; llvmpipe's is known: sample i of n from i/n up.
+    /// The device decides how alpha becomes a number of samples; llvmpipe's rule is known: sample i of n from i/n up.
     bool rule_is_known() const { return m_context->device().software; }
     gl::Context& context() { return *m_context; }
 
@@ -37,8 +37,7 @@ class AlphaToCoverage : public testing::Test {
     std::unique_ptr<gl::Context> m_context = make_context("egl");
 };
 
-/// White over black shows the part of the samples that is covered: ceil(4 alpha) / 4, which is up to a quarter too
-/// much.
+/// White over black shows the share of covered samples: ceil(4 alpha) / 4, which is up to a quarter too high.
 TEST_F(AlphaToCoverage, HasFourLevels) {
     float last = 0;
     for (const double alpha : {0.0, 0.02, 0.24, 0.26, 0.49, 0.51, 0.74, 0.76, 0.99, 1.0}) {
@@ -55,7 +54,7 @@ TEST_F(AlphaToCoverage, HasFourLevels) {
     EXPECT_EQ(last, 1);
 }
 
-/// By llvmpipe's rule both layers cover the same half of the samples: the far one vanishes, where blending would give
+/// By llvmpipe's rule both layers cover the same half of the samples, so the far one vanishes; blending would give
 /// 0.5 * 1 + 0.25 * 0.8 + 0.25 * 0 = 0.7.
 TEST_F(AlphaToCoverage, LikeAlphasHideEachOther) {
     if (!rule_is_known()) GTEST_SKIP() << "not on llvmpipe";
@@ -75,7 +74,7 @@ TEST_F(AlphaToCoverage, ReferenceDropsFirst) {
     EXPECT_NEAR(gray_of(with_far, coverage(4, 0.41)), 0.6, 1e-6);
 }
 
-/// Either exactly two samples or none at all: more would be another picture.
+/// Either exactly two samples or unsupported: more would give a different picture.
 TEST_F(AlphaToCoverage, TwoSamplesOrUnsupported) {
     const std::vector<json> layers = {layer(0.9, 0, 1, true), layer(0.5, 1, 0.3)};
     try {
@@ -118,7 +117,7 @@ TEST_F(AlphaToCoverage, SubmissionDoesNotMatter) {
     } while (std::ranges::next_permutation(layers).found);
 }
 
-/// Alpha decides the coverage and must not reach the picture; neither may the state reach other methods.
+/// Alpha decides the coverage and must not reach the picture; nor may the state affect other methods.
 TEST_F(AlphaToCoverage, LeavesNothingBehind) {
     for (const std::string format : {"rgba8", "rgba16f", "rgba32f"})
         EXPECT_EQ(picture({layer(0.5, 1, 0.6)}, coverage(), format).pixel(0, 0)[3], 1) << format;

@@ -1,7 +1,7 @@
-// Pictures over other backgrounds than the spec's: what of a method's alpha they bring to light.
+// Pictures over backgrounds other than the spec's: which errors in a method's alpha they reveal.
 #include <gmock/gmock.h>
 
-#include "renderer/compare.h"
+#include "renderer/compare/compare.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::backgrounds_test {
@@ -34,7 +34,7 @@ sheer::Run run_of(const json& layers, const json& methods, const std::string& fo
 }
 
 /// After the nearer layer 0.25 of the light is left, under the threshold; the farther one is black, so over black it
-/// makes no difference that f2bd leaves it out. What is left is 0.125 in truth and 0.25 with f2bd.
+/// makes no difference that f2bd leaves it out. The transmittance should be 0.125 and is 0.25 with f2bd.
 TEST(Backgrounds, ALayerLeftOutShowsOverWhiteOnly) {
     const sheer::Run run =
         run_of({layer(0.7, 0, 0.5), layer(0.3, 0.5, 0.75)}, {"b2f", {{"id", "f2bd"}, {"threshold", 0.5}}}, "rgba32f");
@@ -78,7 +78,7 @@ TEST(Backgrounds, OfEightBitsAreRounded) {
     EXPECT_NEAR(found["linear"]["max_abs"].get<double>(), 128 / 255.0 - 0.5, 1e-6);
 }
 
-/// What a method keeps from frame to frame must not show in another background: a restarted one and a new one agree.
+/// What a method keeps from frame to frame must not affect another background: a restarted method equals a new one.
 TEST(Backgrounds, RestartedMethodsAreAsNew) {
     const auto context = make_context("egl");
     const json layers = {layer(0.9, 0.2, 1, true, {0, 0, 0.4, 0.6}), layer(0.7, 0.9, 0.4),
@@ -91,15 +91,15 @@ TEST(Backgrounds, RestartedMethodsAreAsNew) {
     Target target(context->gl(), spec.image, PixelFormat::rgba32f);
     gl::FrameTimer timer(*context);
     const auto frame = [&](Method& method) {
-        timer.begin_frame(false);
+        gl::FrameTimer::Frame drawn_frame = timer.frame(false);
         method.render(timer);
-        timer.end_frame();
+        drawn_frame.end();
         return target.read();
     };
     for (const MethodSpec& method : spec.methods) {
         SCOPED_TRACE(method.label);
         const auto make = [&] {
-            return find_method(method.id)->make({*context, context->gl(), drawn, target, method.parameters});
+            return find_method(method.id)->make({*context, context->gl(), drawn, target}, method.parameters);
         };
         const auto used = make();
         target.set_background(spec.image.background);

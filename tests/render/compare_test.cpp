@@ -1,5 +1,5 @@
-// The spine: what a comparison gives, how it is timed, and how it ends early.
-#include "renderer/compare.h"
+// A whole comparison: its results, how it is timed, and how it ends early.
+#include "renderer/compare/compare.h"
 
 #include <gmock/gmock.h>
 
@@ -44,7 +44,7 @@ TEST(Compare, GivesEveryMethodItsPictureTimesAndMetrics) {
     ASSERT_EQ(run.results.size(), 4u);
     for (const MethodResult& result : run.results) {
         SCOPED_TRACE(result.method.label);
-        EXPECT_EQ(result.status, "ok");
+        EXPECT_EQ(result.status, report::ResultStatus::ok);
         EXPECT_EQ(result.image.pixel_count(), 48u * 40u);
         EXPECT_EQ(result.samples.size(), 3u);
         for (const gl::FrameSample& sample : result.samples) EXPECT_GT(sample.wall_ms, 0);
@@ -102,12 +102,13 @@ TEST(Compare, ProgressGrowsAndNamesEachStage) {
         EXPECT_TRUE(stages.contains(stage)) << stage;
 }
 
-TEST(Compare, CanBeCancelledBetweenRounds) {
+TEST(Compare, EndsWithWhatTheCallerThrowsBetweenRounds) {
+    struct Enough {};
     const auto context = make_context("egl");
-    const ProgressFunction cancel = [](double, const std::string& stage) {
-        if (stage == "timing round 2 of 3") throw Cancelled();
+    const ProgressFunction stop = [](double, const std::string& stage) {
+        if (stage == "timing round 2 of 3") throw Enough();
     };
-    EXPECT_THROW(compare_here(small_spec(), *context, cancel), Cancelled);
+    EXPECT_THROW(compare_here(small_spec(), *context, stop), Enough);
     EXPECT_NO_THROW(compare_here(small_spec(), *context, no_progress)) << "the context is still of use";
 }
 
@@ -128,7 +129,7 @@ TEST(Compare, ChecksTheReferenceAtEveryPoint) {
     }
 }
 
-/// A method that cannot run here is reported, and the others are compared all the same.
+/// A method that cannot run here is reported, and the others are still compared.
 TEST(Compare, ReportsWhatIsUnsupported) {
     const Spec spec =
         parse_spec({{"scene", {{"type", "quads"}, {"count", 40000}, {"distribution", "full"}, {"shading", "constant"}}},
@@ -137,8 +138,8 @@ TEST(Compare, ReportsWhatIsUnsupported) {
                     {"timing", {{"rounds", 1}}}});
     const auto context = make_context("egl");
     const auto runs = compare_here(spec, *context, no_progress);
-    EXPECT_EQ(runs[0].results[0].status, "ok");
-    EXPECT_EQ(runs[0].results[1].status, "unsupported");
+    EXPECT_EQ(runs[0].results[0].status, report::ResultStatus::ok);
+    EXPECT_EQ(runs[0].results[1].status, report::ResultStatus::unsupported);
     EXPECT_THAT(runs[0].results[1].reason, testing::HasSubstr("40000 fragments"));
     EXPECT_TRUE(runs[0].results[1].samples.empty());
 }

@@ -18,7 +18,7 @@ nlohmann::json half_layers(int count) {
     return layers_scene(layers);
 }
 
-/// Samples per pixel of a frame, where all pixels are alike.
+/// Samples per pixel of a frame whose pixels are all equal.
 std::int64_t samples_per_pixel(const nlohmann::json& scene, const nlohmann::json& method) {
     const auto context = make_context("egl");
     const Spec spec = make_spec(scene, nlohmann::json::array({method}), size_px);
@@ -75,11 +75,11 @@ TEST(DepthMarks, ErrorIsAtMostTheThreshold) {
     }
 }
 
-/// The marks live in the depth of the opaque pass and must not outlive the frame, nor be mistaken for an opaque object.
+/// The marks are in the depth of the opaque pass. They must not outlive the frame or be mistaken for opaque geometry.
 TEST(DepthMarks, RespectOpaqueGeometryInEveryFrame) {
     const auto context = make_context("egl");
     const nlohmann::json layers = {
-        full_layer(0.6, {0, 0, 1}, 1, true),  // shows through what is before it
+        full_layer(0.6, {0, 0, 1}, 1, true),  // shows through what is in front of it
         full_layer(0.8, {0, 1, 0}, 0.9),      // hidden by it
         full_layer(0.3, {1, 0, 0}, 0.75),     // leaves 0.25
         full_layer(0.4, {0, 1, 0}, 0.5),      // stopped

@@ -1,4 +1,4 @@
-// The sort that a moved camera costs: what it uploads is what Scene would draw.
+// The sort for a moved camera: it uploads what Scene would draw.
 #include "renderer/scene/depth_sort.h"
 
 #include <gmock/gmock.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "renderer/compare.h"
-#include "renderer/scene/random.h"
+#include "renderer/compare/compare.h"
+#include "renderer/core/random.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::depth_sort_test {
@@ -52,7 +52,7 @@ TEST(DepthSort, ScenesWithoutACameraAreNotTurned) {
     EXPECT_EQ(sorted(geometry, 1), sorted(geometry));
 }
 
-/// Random points before a camera at the origin that looks along -z, as small triangles.
+/// Random points in front of a camera at the origin that looks along -z, as small triangles.
 Geometry points(std::size_t count, unsigned seed) {
     Random random(seed);
     Geometry geometry;
@@ -116,7 +116,7 @@ TEST(DepthSort, AComparisonTimesItForMethodsThatSort) {
     const std::vector<bool> sorts = {true, false, true, false};
     for (std::size_t i = 0; i < 4; ++i) {
         const MethodResult& result = runs.at(0).results[i];
-        EXPECT_EQ(result.status, "ok") << result.reason;
+        EXPECT_EQ(result.status, report::ResultStatus::ok) << result.reason;
         EXPECT_EQ(result.sorts, sorts[i]) << result.method.label;
         EXPECT_EQ(result.sort_ms.size(), sorts[i] ? 3u : 0u) << result.method.label;
         for (const double time_ms : result.sort_ms) EXPECT_GT(time_ms, 0);

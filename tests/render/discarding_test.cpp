@@ -1,6 +1,6 @@
-// What early discarding may and may not do to the picture, and when it synchronises.
-#include "renderer/frame/overdraw.h"
-#include "renderer/scene/random.h"
+// How early discarding may change the picture, and when it synchronises.
+#include "renderer/core/random.h"
+#include "renderer/passes/overdraw.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::discarding_test {
@@ -18,7 +18,7 @@ struct Calls {
     int barriers = 0, unbinds = 0, flushes = 0, finishes = 0;
 };
 
-/// The functions of a context with four of them counted. One at a time: GL functions carry no user data.
+/// The functions of a context, of which four are counted. One at a time: GL functions carry no user data.
 class CountedFunctions {
   public:
     explicit CountedFunctions(const gl::Functions& real) : m_functions(real) {
@@ -87,7 +87,7 @@ TEST(Discarding, RebindsOrDoesNothingWhenTold) {
     EXPECT_EQ(finish.barriers + finish.unbinds + finish.flushes - none.flushes, 0);
 }
 
-/// What is left out at a pixel has less than the threshold of transmittance before it, and no colour is over 1.
+/// In front of what is left out, less than the threshold of transmittance is left, and no color is over 1.
 TEST(Discarding, ErrorIsAtMostTheThreshold) {
     const auto context = make_context("egl");
     for (const double threshold : {0.01, 0.1, 0.5}) {
@@ -116,7 +116,7 @@ TEST(Discarding, EveryWayOfReadingTheAlphaGivesOnePicture) {
         EXPECT_EQ(greatest_difference(first, stage.picture(method)), 0) << method.parameters;
 }
 
-/// The opacity in place of the transmittance: the same picture and the same fragments but for rounding.
+/// The opacity instead of the transmittance: the same picture and the same fragments except for rounding.
 TEST(Discarding, KeepingTheOpacityGivesThePicture) {
     const auto context = make_context("egl");
     nlohmann::json methods = nlohmann::json::array({{{"id", "f2bd"}, {"threshold", 0.05}}});
@@ -156,7 +156,7 @@ TEST(Discarding, FramebufferFetchNeedsItsExtension) {
 
 /// F2BD must shade exactly the fragments that come before the transmittance falls under the threshold: three layers of
 /// alpha 0.5 leave 0.5, 0.25 and 0.125, so of five layers a threshold of 0.2 lets three through. Counted by the samples
-/// that pass; the clear is none and the composite adds one for each pixel.
+/// that pass; the clear counts none and the composite adds one for each pixel.
 TEST(Discarding, ShadesWhatIsNeeded) {
     const auto context = make_context("egl");
     nlohmann::json layers = nlohmann::json::array();

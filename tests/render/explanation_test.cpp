@@ -1,10 +1,10 @@
-// How methods explain a pixel: what they say must be what the composite in double precision says, and must give the
-// pixel's value when it is put together again.
+// How methods explain a pixel: the facts must agree with the composite in double precision, and the pixel's value must
+// follow from them.
 #include <gmock/gmock.h>
 
 #include <set>
 
-#include "renderer/autopsy.h"
+#include "renderer/compare/pixel.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::explanation_test {
@@ -33,7 +33,7 @@ json scene_of(const std::vector<Layer>& layers) {
     return {{"type", "layers"}, {"layers", array}};
 }
 
-/// As submitted; from near to far they are numbers 3, 1, 4 and 2.
+/// As submitted; from near to far they have the numbers 3, 1, 4 and 2.
 const std::vector<Layer> four = {{0.6, 0.25}, {0.2, 0.5}, {0.8, 0.9}, {0.4, 0.75}};
 /// From near to far.
 const std::vector<Layer> with_cores = {{0.1, 0.5}, {0.2, 0}, {0.3, 1}, {0.4, 0.4}, {0.5, 1}};
@@ -45,7 +45,7 @@ class Explained {
         const auto context = make_context("egl");
         NoAssets assets;
         const Spec spec = make_spec(scene_of(layers), json::array({method}), size_px, format);
-        m_explanation = take_pixel_apart(spec, *context, assets, 5, 2).methods.at(0);
+        m_explanation = explain_pixel(spec, *context, assets, 5, 2).methods.at(0);
         EXPECT_EQ(m_explanation.reason, "");
     }
 
@@ -165,7 +165,7 @@ TEST(Explanation, TheMasksGiveTheBlend) {
     EXPECT_NEAR(max["blend"].get<double>(), 0.9, tolerance);
 }
 
-/// In the first frame the sky is seen behind the cap; the second has the first's picture there.
+/// In the first frame the sky is visible behind the cap; the second frame has the first one's picture there.
 TEST(Explanation, ACapTellsWhatItCutAndWhatFilledIt) {
     const Explained cap(four, {{"id", "stencil_cap"}, {"layers", 2}, {"min_alpha", 0.3}, {"frames", 2}});
     EXPECT_EQ(cap["let_through"], json({1, 2}));
@@ -201,7 +201,7 @@ TEST(Explanation, OpaqueDepthTellsWhatClosedThePixel) {
     }
 }
 
-/// Which samples an alpha covers is the device's own; at 1 all, at 0 none, and the mean is the pixel.
+/// The device decides which samples an alpha covers; at 1 all, at 0 none, and the mean is the pixel.
 TEST(Explanation, TheMeanOfTheSamplesIsThePixel) {
     const auto explained = [](const std::vector<Layer>& layers) {
         return Explained(layers, {{"id", "alpha_to_coverage"}});
@@ -239,7 +239,7 @@ TEST(Explanation, IsOfThePixelThatAWholeFrameHas) {
         std::vector<Image> pictures;
         for (const MethodSpec& method : spec.methods) pictures.push_back(stage.picture(method));
         for (const auto& [x, y] : {std::pair{20, 20}, {13, 30}, {39, 7}}) {
-            const PixelStack stack = take_pixel_apart(spec, *context, assets, x, y);
+            const PixelStack stack = explain_pixel(spec, *context, assets, x, y);
             for (std::size_t i = 0; i < spec.methods.size(); ++i) {
                 SCOPED_TRACE(spec.methods[i].label + " " + std::to_string(x) + ", " + std::to_string(y));
                 ASSERT_TRUE(stack.methods[i].value) << stack.methods[i].reason;
@@ -262,7 +262,7 @@ TEST(Explanation, OfWhatCannotRunHasAReason) {
     const Spec spec = make_spec(
         {{"type", "quads"}, {"distribution", "full"}, {"count", max_explained_fragments + 1}, {"shading", "constant"}},
         {"b2f"}, 2);
-    const PixelStack stack = take_pixel_apart(spec, *context, assets, 0, 0);
+    const PixelStack stack = explain_pixel(spec, *context, assets, 0, 0);
     EXPECT_EQ(stack.methods[0].value, std::nullopt);
     EXPECT_THAT(stack.methods[0].reason, testing::HasSubstr("5001 fragments"));
 }

@@ -1,13 +1,13 @@
-// How many fragments each method shades, and how many it had to: held against a composite in double precision on the
-// CPU where the scene is `layers`, and against each other elsewhere.
+// How many fragments each method shades, and how many it needed to: compared with a composite in double precision on
+// the CPU if the scene is `layers`, and with each other otherwise.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "renderer/compare.h"
-#include "renderer/frame/needed.h"
+#include "renderer/compare/compare.h"
+#include "renderer/counting/needed.h"
 #include "tests/render/compositor.h"
 #include "tests/render/render_test.h"
 
@@ -58,14 +58,13 @@ sheer::Run run_of(const json& scene, const json& methods, const std::string& for
 }
 
 /// A number for each pixel, from its fragments sorted from near to far.
-PixelCounts on_the_cpu(const json& scene,
-                       const std::function<std::uint32_t(const std::vector<Compositor::Fragment>&)>& f) {
+PixelCounts on_the_cpu(const json& scene, const std::function<std::uint32_t(const std::vector<Fragment>&)>& f) {
     const Compositor compositor(scene, size_px, {0, 0, 0});
     PixelCounts counts{size_px, size_px, {}};
     for (int y = 0; y < size_px; ++y) {
         for (int x = 0; x < size_px; ++x) {
             auto fragments = compositor.stack(x, y).fragments;
-            std::ranges::stable_sort(fragments, std::less(), &Compositor::Fragment::depth);
+            std::ranges::stable_sort(fragments, std::less(), &Fragment::depth);
             counts.counts.push_back(f(fragments));
         }
     }
@@ -145,7 +144,7 @@ TEST(Fragments, F2bdShadesWhatIsNeededOfQuads) {
     }
 }
 
-/// `layers` from far to near or from near to far: what the alpha test shades is what its own depth test lets through.
+/// `layers` from far to near or from near to far: the alpha test shades what its own depth test lets through.
 TEST(Fragments, AnAlphaTestIsCountedAsItsDepthTestGoes) {
     const json far_to_near = stack_of_layers(0.6);
     json near_to_far = far_to_near;
@@ -164,10 +163,10 @@ TEST(Fragments, WhatCannotBeToldHasAReason) {
     const sheer::Run peeled = run_of(stack_of_layers(0.5), {"depth_peeling"});
     EXPECT_EQ(peeled.results[0].fragments.shaded, std::nullopt);
     EXPECT_THAT(peeled.results[0].fragments.no_shaded_reason, HasSubstr("samples pass"));
-    EXPECT_EQ(peeled.results[0].status, "ok");
+    EXPECT_EQ(peeled.results[0].status, report::ResultStatus::ok);
 }
 
-/// Primitives that may intersect are peeled, layer by layer; nothing tells these from others but `parallel`.
+/// Primitives that may intersect are peeled, layer by layer; only `parallel` distinguishes these from others.
 TEST(Fragments, NeededOfWhatMayIntersectIsThatOfACompositeOnTheCpu) {
     const json scene = stack_of_layers(0.5);
     const Spec spec =
@@ -179,9 +178,9 @@ TEST(Fragments, NeededOfWhatMayIntersectIsThatOfACompositeOnTheCpu) {
     for (const PixelFormat format : {PixelFormat::rgba8, PixelFormat::rgba32f}) {
         const Stage stage(*context, spec, format, geometry);
         gl::FrameTimer timer(*context);
-        timer.begin_frame(false);
+        gl::FrameTimer::Frame frame = timer.frame(false);
         const NeededFragments counted = count_needed(context->gl(), stage.scene(), stage.target(), 0.1f, timer);
-        timer.end_frame();
+        frame.end();
         EXPECT_EQ(counted.needed.counts, needed_on_the_cpu(scene, 0.1).counts);
         EXPECT_EQ(counted.saturation.counts,
                   on_the_cpu(scene, [](const auto& f) { return f.size() >= 4 ? 4u : 0u; }).counts);
@@ -197,14 +196,14 @@ TEST(Fragments, FoliageIsCounted) {
     EXPECT_LE(needed, run.overdraw.total());
 }
 
-/// The counting must not be seen in the picture, so every method is asked, and its picture compared with an uncounted.
+/// Counting must not change the picture, so for every method the picture is compared with one without counting.
 TEST(Fragments, EveryMethodCanBeCounted) {
     json methods = json::array();
     for (const MethodInfo& method : all_methods()) methods.push_back(method.id);
     const sheer::Run run = run_of(quads(20), methods, "rgba8", 24);
     for (const MethodResult& result : run.results) {
         SCOPED_TRACE(result.method.id);
-        if (result.status != "ok") continue;
+        if (result.status != report::ResultStatus::ok) continue;
         EXPECT_NE(result.fragments.shaded.has_value(), !result.fragments.no_shaded_reason.empty());
         EXPECT_TRUE(result.fragments.needed.has_value());
         if (!result.fragments.shaded) continue;

@@ -1,11 +1,11 @@
-// Shadings of the user's own.
+// User-defined shadings.
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "renderer/compare.h"
-#include "renderer/frame/loop_check.h"
-#include "renderer/scene/glsl_shading.h"
+#include "renderer/compare/compare.h"
+#include "renderer/counting/loop_check.h"
+#include "renderer/glsl/own_shading.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::glsl_shading_test {
@@ -73,7 +73,7 @@ TEST(GlslShading, SeesWhereTheFragmentIs) {
                                 {"b2f"}, size_px, "rgba32f");
     Stage stage(*context, spec, PixelFormat::rgba32f);
     const Image image = stage.picture(spec.methods[0]);
-    // The middle of pixel (4, 20) is at (4.5, 20.5) / 32 of each layer. Alpha is the depth: 0.75 behind, 0.5 before.
+    // The middle of pixel (4, 20) is at (4.5, 20.5) / 32 of each layer. Alpha is the depth: 0.75 behind, 0.5 in front.
     const double background[] = {0.2, 0.4, 0.6}, behind[] = {4.5 / 32, 20.5 / 32, 0},
                  before[] = {4.5 / 32, 20.5 / 32, 0.25};
     for (int channel = 0; channel < 3; ++channel) {
@@ -99,7 +99,7 @@ TEST(GlslShading, ReadsTheTexturesAsTheBuiltInShadingDoes) {
     EXPECT_GT(greatest_difference(textured, constant_stage.picture(constant.methods[0])), 0.1);
 }
 
-TEST(GlslShading, ColoursEveryKindOfScene) {
+TEST(GlslShading, ColorsEveryKindOfScene) {
     const auto context = make_context("egl");
     for (const json& scene : {json{{"type", "quads"}, {"count", 40}}, json{{"type", "particles"}, {"count", 400}},
                               json{{"type", "foliage"}, {"trees", 1}, {"planes_per_tree", 40}}}) {
@@ -116,8 +116,8 @@ TEST(GlslShading, ColoursEveryKindOfScene) {
 }
 
 TEST(GlslShading, CompileErrorsHaveTheUsersLines) {
-    EXPECT_THAT(error_of("vec4 a = tint; // {\n/*\n*/ a.rgb = colour;\nreturn a;"),
-                testing::AllOf(testing::HasSubstr("\nline 3: "), testing::HasSubstr("colour")));
+    EXPECT_THAT(error_of("vec4 a = tint; // {\n/*\n*/ a.rgb = color;\nreturn a;"),
+                testing::AllOf(testing::HasSubstr("\nline 3: "), testing::HasSubstr("color")));
     EXPECT_THAT(error_of("for (int i = 0; i < count;\n ++i) {}\nreturn tint;"),
                 testing::AllOf(testing::HasSubstr("\nline 1: "), testing::HasSubstr("count")));
     EXPECT_THAT(error_of("return\ntint"), testing::HasSubstr("\nline 2: "));
@@ -131,7 +131,7 @@ TEST(GlslShading, EndlessLoopsAreNamedWithAPixel) {
                                    "do { tint.a *= 0.5; } while (tint.a >= 0.0);",
                                    "for (int i = 0; i < 2; ++i) while (tint.a <= 1.0) { if (i == 2) break; }"})
         EXPECT_THAT(error_of(loop + " return tint;"), testing::HasSubstr("pixel (8, 8)")) << loop;
-    // The opaque layer's own corner: what lies behind or before it ends.
+    // Only at the opaque layer's corner; the loops of what is behind or in front of it end.
     EXPECT_THAT(error_of("while (v_primitive == 1u) {} return tint;"), testing::HasSubstr("pixel (0, 16)"));
     EXPECT_THAT(error_of("while (v_primitive == 1u && uv.x > 0.5 && uv.y > 0.5) {} return tint;"),
                 testing::AllOf(testing::HasSubstr("pixel (12, 24)"), testing::HasSubstr("96 pixels")));
@@ -165,7 +165,7 @@ std::string error_of_comparison(const json& scene, const json& methods) {
 }
 
 /// With several samples the edge of a rectangle at 8.2 pixels shades pixel 8 at its middle, where uv.x is over 1, and
-/// with a cap a coarse picture shades yet other places. Only there the loop does not end.
+/// with a cap a coarse picture shades yet other places. Only there does the loop not end.
 TEST(GlslShading, LoopsAreCheckedInEveryMethod) {
     const auto scene_with = [](const std::string& condition, bool opaque) {
         return json{
@@ -180,7 +180,7 @@ TEST(GlslShading, LoopsAreCheckedInEveryMethod) {
     };
     const json several = {"b2f", "alpha_to_coverage"};
     EXPECT_THAT(error_of_comparison(scene_with("uv.x > 1.0", false), several),
-                testing::HasSubstr("where alpha_to_coverage draws it"));
+                testing::HasSubstr("when alpha_to_coverage draws it"));
     EXPECT_EQ(error_of_comparison(scene_with("uv.x > 1.0", false), {"b2f", "f2b", "exact"}), "");
     EXPECT_EQ(error_of_comparison(scene_with("uv.x > 1.5", false), several), "");
     EXPECT_THAT(error_of_comparison(scene_with("x < 1.0", false), {"b2f"}), testing::HasSubstr("4096 iterations"));
@@ -191,8 +191,8 @@ TEST(GlslShading, LoopsAreCheckedInEveryMethod) {
     EXPECT_THAT(error_of_comparison(scene_with(coarse, false), json::array({cap})), testing::HasSubstr("stencil_cap"));
 }
 
-/// A guarded division gives what an unguarded one does, of every type and sign, and the least integer by -1 is itself,
-/// constant or not. The picture holds whether all of that is so.
+/// A guarded division gives the same as an unguarded one, for every type and sign, and the least integer by -1 is
+/// itself, constant or not. The picture shows whether all of this is true.
 TEST(GlslShading, DivisionsAreThoseOfTheLanguage) {
     const std::string body =
         "int least = -2147483647 - 1, minus = -1, five = 5, two = -2;\n"
@@ -219,7 +219,7 @@ TEST(GlslShading, DivisionsAreThoseOfTheLanguage) {
     EXPECT_EQ(pixel[1], 1);
 }
 
-/// The largest arrays that are allowed are drawn.
+/// The largest allowed arrays are drawn.
 TEST(GlslShading, ArraysOfTheLimitAreDrawn) {
     EXPECT_EQ(error_of("float a[4096]; for (int i = 0; i < 16; ++i) a[i * 255] = tint.r;\n"
                        "return vec4(a[int(uv.x * 15.0) * 255], tint.gba);"),
@@ -235,7 +235,7 @@ TEST(GlslShading, EndlessLoopsEndInAMethodToo) {
     EXPECT_EQ(stage.picture(spec.methods[0]).pixel(20, 10)[1], 1);
 }
 
-/// No report dies of what a user's function gives, and no method is spared: they all get the same numbers.
+/// No report fails because of what a user's function returns, and all methods get the same numbers.
 TEST(GlslShading, WhatIsNoNumberAndWhatIsTooLargeGivesAReport) {
     for (const std::string value : {"0.0 / (tint.a - tint.a)", "1e30 * 1e30 * tint.a", "-1e30", "sqrt(-tint.a)"}) {
         const auto context = make_context("egl");
@@ -245,7 +245,7 @@ TEST(GlslShading, WhatIsNoNumberAndWhatIsTooLargeGivesAReport) {
         int ok = 0;
         const auto check = [&](const sheer::Run& run) {
             for (const MethodResult& result : run.results) {
-                ok += result.status == "ok" ? 1 : 0;
+                ok += result.status == report::ResultStatus::ok ? 1 : 0;
                 for (const float number : result.image.rgba)
                     ASSERT_TRUE(std::isfinite(number)) << value << ' ' << result.method.id;
             }

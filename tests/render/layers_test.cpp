@@ -1,184 +1,42 @@
-// Every method against the closed form: `layers` scenes of random colours and alphas, opaque layers among them,
-// composited on the CPU in double precision.
-#include <cmath>
+// Every method compared with its formula: `layers` scenes with random colors and alphas, some layers opaque, computed
+// on the CPU in double precision. Each method's formula is in its row, tests/render/methods/<id>.cpp.
+#include <fmt/format.h>
 
-#include "renderer/scene/random.h"
-#include "tests/render/compositor.h"
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "renderer/core/random.h"
+#include "tests/render/method_row.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::layers_test {
 
 namespace {
 
-constexpr int size_px = 32;
+constexpr Color background = {0.2, 0.4, 0.6};
 
-/// One row a method: what its picture must be, and how often its result is rounded to the target's format.
-struct MethodRow {
-    nlohmann::json method;
-    Compositor::Order order;
-    bool rounds_each_layer;  // blends in the target's format; false where it blends in floats and is rounded once
-    double (*own_tolerance)(PixelFormat format, double layers) = nullptr;  // where neither of these is how it rounds
-    bool software_only = false;  // the formula is llvmpipe's; other devices have rules of their own
+struct Case {
+    std::string context, format;
+    std::size_t layers;
+    int size_px = 32;
 };
 
-/// Meshkin's sums of n colours and n alphas reach n and are rounded n times; in 32 bits the general rule holds. The
-/// opaque picture, rounded by half a level, is weighed by at most n.
-double meshkin_tolerance(PixelFormat format, double layers) {
-    if (format == PixelFormat::rgba32f) return 1e-5 * layers;
-    return layers * (layers + 1) * 0x1p-11 + (format == PixelFormat::rgba8 ? 0.5 * (layers + 1) / 255 : 0x1p-11);
-}
-/// Beside the sums the product, which is rounded n times, times the reciprocals: at most n.
-double meshkin_full_tolerance(PixelFormat format, double layers) {
-    if (format == PixelFormat::rgba32f) return 1e-5 * layers;
-    return meshkin_tolerance(format, layers) + layers * layers * 0x1p-10 +
-           (format == PixelFormat::rgba8 ? 0.5 * layers / 255 : 0);
+void PrintTo(const Case& test_case, std::ostream* out) {
+    *out << test_case.context << ' ' << test_case.format << ' ' << test_case.layers;
 }
 
-/// The sum of n alphas is off by n half roundings, its square by twice that; two pictures and the result are rounded.
-double ssam_tolerance(PixelFormat format, double layers) {
-    if (format == PixelFormat::rgba32f) return 1e-5 * layers;
-    return (layers + 1.5) * (format == PixelFormat::rgba8 ? 1.0 / 255 : 0x1p-10);
+std::uint64_t seed_of(const Case& test_case) {
+    return 7 + test_case.layers;
 }
 
-/// Each sample is rounded, and their mean.
-double coverage_tolerance(PixelFormat format, double) {
-    return format == PixelFormat::rgba8 ? 1.0 / 255 : format == PixelFormat::rgba16f ? 0x1p-10 : 1e-5;
-}
-
-const std::vector<MethodRow>& rows() {
-    using Order = Compositor::Order;
-    static const std::vector<MethodRow> all = {
-        {{{"id", "b2f"}}, Order::by_depth, true},
-        {{{"id", "f2b"}}, Order::by_depth, true},
-        {{{"id", "f2b"}, {"alpha_factors", "dst_alpha_zero"}, {"label", "f2b by target"}}, Order::by_depth, true},
-        {{{"id", "f2b"}, {"inverted", false}, {"label", "f2b opacity"}}, Order::by_depth, true},
-        {{{"id", "f2b"}, {"inverted", false}, {"alpha_factors", "dst_alpha_zero"}, {"label", "f2b opacity by target"}},
-         Order::by_depth,
-         true},
-        // At threshold 0 nothing is under the threshold, so nothing may be discarded.
-        {{{"id", "f2bd"}, {"threshold", 0}}, Order::by_depth, true},
-        {{{"id", "f2bd"}, {"threshold", 0}, {"alpha_target", "separate"}, {"label", "separate"}},
-         Order::by_depth,
-         true},
-        {{{"id", "f2bd"}, {"threshold", 0}, {"feedback", "framebuffer_fetch"}, {"batch", 3}, {"label", "fetch"}},
-         Order::by_depth,
-         true},
-        {{{"id", "f2bd"},
-          {"threshold", 0},
-          {"form", "if_discard"},
-          {"sync", "flush"},
-          {"batch", 3},
-          {"label", "flush"}},
-         Order::by_depth,
-         true},
-        {{{"id", "f2bd"}, {"threshold", 0}, {"sync", "finish"}, {"batch", 3}, {"label", "finish"}},
-         Order::by_depth,
-         true},
-        {{{"id", "f2bd"}, {"threshold", 0}, {"inverted", false}, {"label", "f2bd opacity"}}, Order::by_depth, true},
-        {{{"id", "f2bd"},
-          {"threshold", 0},
-          {"inverted", false},
-          {"alpha_target", "separate"},
-          {"alpha_factors", "dst_alpha_zero"},
-          {"label", "separate opacity by target"}},
-         Order::by_depth,
-         true},
-        {{{"id", "f2bd"},
-          {"threshold", 0},
-          {"inverted", false},
-          {"alpha_target", "separate"},
-          {"label", "separate opacity"}},
-         Order::by_depth,
-         true},
-        {{{"id", "f2bd"},
-          {"threshold", 0},
-          {"alpha_target", "separate"},
-          {"alpha_factors", "dst_alpha_zero"},
-          {"label", "separate by target"}},
-         Order::by_depth,
-         true},
-        // The transmittance starts at 0, so neither layers nor background come through.
-        {{{"id", "f2bx"}}, Order::black, true},
-        {{{"id", "f2bx"}, {"inverted", false}, {"label", "f2bx opacity"}}, Order::black, true},
-        // At threshold 0 nothing is marked.
-        {{{"id", "depth_marks"}, {"threshold", 0}, {"interval", 3}}, Order::by_depth, true},
-        {{{"id", "opaque_depth"}, {"batch", 3}}, Order::by_depth, true},
-        {{{"id", "opaque_depth"}, {"variant", "target_alpha"}, {"batch", 3}, {"label", "target_alpha"}},
-         Order::by_depth,
-         true},
-        {{{"id", "opaque_depth"}, {"variant", "two_pass"}, {"label", "two_pass"}}, Order::by_depth, true},
-        {{{"id", "opaque_depth"}, {"marks", "static"}, {"label", "static"}}, Order::by_depth, true},
-        {{{"id", "opaque_depth"}, {"marks", "static"}, {"batch", 3}, {"depth_bits", 32}, {"label", "static 32"}},
-         Order::by_depth,
-         true},
-        {{{"id", "opaque_depth"},
-          {"variant", "target_alpha"},
-          {"marks", "static"},
-          {"batch", 3},
-          {"mark_pass", "shader"},
-          {"label", "static, marked by a shader"}},
-         Order::by_depth,
-         true},
-        {{{"id", "opaque_depth"},
-          {"variant", "target_alpha"},
-          {"batch", 3},
-          {"mark_pass", "shader"},
-          {"depth_bits", 32},
-          {"label", "marked by a shader"}},
-         Order::by_depth,
-         true},
-        // No pixel reaches the cap, so nothing is cut off or guessed.
-        {{{"id", "stencil_cap"}, {"layers", 17}, {"min_alpha", 0}, {"frames", 2}}, Order::by_depth, true},
-        {{{"id", "stencil_cap"}, {"layers", 17}, {"min_alpha", 0}, {"frames", 2}, {"zcull", true}, {"label", "zcull"}},
-         Order::by_depth,
-         true},
-        {{{"id", "unsorted"}}, Order::by_submission, true},
-        {{{"id", "alpha_test"}}, Order::alpha_test, true},
-        {{{"id", "alpha_test"}, {"order", "near_to_far"}, {"label", "sorted alpha test"}}, Order::alpha_test, true},
-        {{{"id", "meshkin"}}, Order::meshkin_simple, false, meshkin_tolerance},
-        {{{"id", "meshkin"}, {"variant", "full"}, {"label", "full"}},
-         Order::meshkin_full,
-         false,
-         meshkin_full_tolerance},
-        {{{"id", "ssam"}}, Order::ssam, false, ssam_tolerance},
-        {{{"id", "ssam"}, {"opaque_msaa", 2}, {"label", "ssam msaa"}}, Order::ssam, false, ssam_tolerance},
-        {{{"id", "ssam"}, {"drawn_after", 2}, {"label", "ssam and two after"}},
-         Order::ssam_and_two_after,
-         false,
-         ssam_tolerance},
-        {{{"id", "alpha_to_coverage"}}, Order::alpha_to_coverage, false, coverage_tolerance, true},
-        {{{"id", "exact"}, {"form", "lists"}, {"label", "lists"}}, Order::by_depth, false},
-        {{{"id", "exact"}, {"form", "sorted"}, {"label", "sorted"}}, Order::by_depth, false},
-        {{{"id", "depth_peeling"}}, Order::by_depth, false},
-    };
-    return all;
-}
-
-/// The largest error that rounding may leave in a picture of `layers` blended layers.
-double tolerance(const MethodRow& row, PixelFormat format, std::size_t layers) {
-    const auto count = static_cast<double>(layers);
-    if (row.own_tolerance != nullptr) return row.own_tolerance(format, count);
-    // Rounded once, by half a level at most; else once a layer, and front to back once more where it is laid over the
-    // opaque picture.
-    const std::string id = row.method.at("id");
-    const bool straight = id == "b2f" || id == "unsorted" || id == "alpha_test";
-    const double roundings = !row.rounds_each_layer ? 0.501 : straight ? count : count + 1;
-    switch (format) {
-        case PixelFormat::rgba8:
-            return roundings / 255;  // 1/255 per rounding of colour and transmittance
-        case PixelFormat::rgba16f:
-            return roundings * 0x1p-10;  // 11 significant bits, colour and transmittance
-        case PixelFormat::rgba32f:
-            return 1e-5 * count;
-    }
-    return 0;
-}
-
-nlohmann::json random_layers(std::size_t count, std::uint64_t seed) {
-    Random random(seed);
+/// Rectangles at random places, every fifth one opaque.
+nlohmann::json random_layers(const Case& test_case) {
+    Random random(seed_of(test_case));
+    const double size_px = test_case.size_px;
     nlohmann::json layers = nlohmann::json::array();
-    for (std::size_t i = 0; i < count; ++i) {
-        // Edges on pixel corners, so that no pixel's middle lies on an edge.
+    for (std::size_t i = 0; i < test_case.layers; ++i) {
+        // Edges on pixel corners, so that no pixel's middle is on an edge.
         const double x0 = static_cast<double>(random.below(20)) / size_px,
                      y0 = static_cast<double>(random.below(20)) / size_px;
         const double x1 = x0 + static_cast<double>(4 + random.below(20)) / size_px;
@@ -192,45 +50,101 @@ nlohmann::json random_layers(std::size_t count, std::uint64_t seed) {
     return {{"type", "layers"}, {"layers", layers}};
 }
 
-struct Case {
-    std::string context, format;
-    std::size_t layers;
+/// So many that sums, products and counters reach their limits. Every pixel has all of them, since what a method
+/// carries from frame to frame is only known for uniform pictures.
+nlohmann::json full_layers(const Case& test_case) {
+    Random random(seed_of(test_case));
+    nlohmann::json layers = nlohmann::json::array();
+    for (std::size_t i = 0; i < test_case.layers; ++i)
+        layers.push_back({{"rect", {0, 0, 1, 1}},
+                          {"depth", random.between(0.05, 0.95)},
+                          {"color", {random.unit(), random.unit(), random.unit()}},
+                          {"alpha", random.unit()}});
+    return {{"type", "layers"}, {"layers", layers}};
+}
+
+/// Where a picture is furthest from its formula, relative to the bound: above 1 it is wrong.
+struct Worst {
+    double bounds = 0;
+    std::string text;
 };
 
-void PrintTo(const Case& test_case, std::ostream* out) {
-    *out << test_case.context << ' ' << test_case.format << ' ' << test_case.layers;
+/// A color whose formula leaves 0 to 1 is clamped. A NaN is wrong.
+Worst worst_pixel(const Image& image, const Compositor& compositor, const Formula& formula, const Bound& bound_of,
+                  PixelFormat format) {
+    Worst worst;
+    for (int y = 0; y < image.height_px; ++y)
+        for (int x = 0; x < image.width_px; ++x) {
+            const Stack stack = compositor.stack(x, y);
+            const Color expected = formula(stack);
+            const double bound = bound_of(stack, format);
+            for (int channel = 0; channel < 3; ++channel) {
+                const double actual = image.pixel(x, y)[channel], wanted = expected[static_cast<std::size_t>(channel)];
+                const double least = std::clamp(wanted - bound, 0.0, 1.0), most = std::clamp(wanted + bound, 0.0, 1.0);
+                const double off = std::max({0.0, least - actual, actual - most});
+                const double bounds = std::isfinite(actual) ? off / bound : std::numeric_limits<double>::infinity();
+                if (bounds <= worst.bounds) continue;
+                worst = {bounds, fmt::format("pixel ({}, {}), channel {}: expected {:.6g} within {:.3g}, actual {:.6g}",
+                                             x, y, "rgb"[channel], wanted, bound, actual)};
+            }
+        }
+    return worst;
+}
+
+/// The row's variants.
+nlohmann::json variants_of(const MethodRow& row) {
+    nlohmann::json methods = nlohmann::json::array();
+    for (const MethodVariant& variant : row.variants) {
+        nlohmann::json method = method_json(row, variant.parameters);
+        method["label"] = fmt::format("{} {}", methods.size(), row.id);
+        methods.push_back(std::move(method));
+    }
+    return methods;
+}
+
+/// `./dev check METHOD` sets SHEER_METHOD to test only that method.
+bool is_wanted(const MethodRow& row) {
+    const char* only = std::getenv("SHEER_METHOD");
+    return only == nullptr || row.id == only;
+}
+
+void expect_formulas(const Case& test_case, const nlohmann::json& scene) {
+    const auto context = make_context(test_case.context);
+    const Spec spec = make_spec(scene, {"exact"}, test_case.size_px, test_case.format);
+    const Compositor compositor(spec.scene, test_case.size_px, background);
+    Stage stage(*context, spec, spec.image.format);
+    for (const MethodRow& row : all_method_rows()) {
+        if (!is_wanted(row)) continue;
+        const Spec of_row = make_spec(scene, variants_of(row), test_case.size_px, test_case.format);
+        for (std::size_t i = 0; i < row.variants.size(); ++i) {
+            const MethodVariant& variant = row.variants[i];
+            if (variant.software_only && !context->device().software) continue;
+            if (test_case.layers > variant.most_layers) continue;
+            const Worst worst = worst_pixel(stage.picture(of_row.methods[i]), compositor,
+                                            row.formula(variant.parameters), variant.bound, spec.image.format);
+            EXPECT_EQ(worst.bounds, 0) << row.id << ' ' << variant.parameters << ", seed " << seed_of(test_case) << ": "
+                                       << worst.text;
+        }
+    }
 }
 
 class Layers : public testing::TestWithParam<Case> {};
 
 TEST_P(Layers, AgreeWithDoublePrecision) {
-    const Case& test_case = GetParam();
-    const auto context = make_context(test_case.context);
-    nlohmann::json methods = nlohmann::json::array();
-    for (const MethodRow& row : rows()) methods.push_back(row.method);
-    const Spec spec =
-        make_spec(random_layers(test_case.layers, 7 + test_case.layers), methods, size_px, test_case.format);
-    const Compositor compositor(spec.scene, size_px, {0.2, 0.4, 0.6});
-    Stage stage(*context, spec, spec.image.format);
-    for (std::size_t i = 0; i < rows().size(); ++i) {
-        const MethodRow& row = rows()[i];
-        if (row.software_only && !context->device().software) continue;
-        const Image image = stage.picture(spec.methods[i]);
-        double greatest = 0;
-        for (int y = 0; y < size_px; ++y)
-            for (int x = 0; x < size_px; ++x)
-                for (int channel = 0; channel < 3; ++channel)
-                    greatest = std::max(greatest, std::abs(compositor.pixel(x, y, row.order)[channel] -
-                                                           double{image.pixel(x, y)[channel]}));
-        EXPECT_LE(greatest, tolerance(row, spec.image.format, test_case.layers)) << spec.methods[i].label;
-    }
+    expect_formulas(GetParam(), random_layers(GetParam()));
 }
 
-std::vector<Case> cases() {
+class ManyLayers : public testing::TestWithParam<Case> {};
+
+TEST_P(ManyLayers, AgreeWithDoublePrecision) {
+    expect_formulas(GetParam(), full_layers(GetParam()));
+}
+
+std::vector<Case> cases(const std::vector<std::string>& formats, const std::vector<std::size_t>& layers, int size_px) {
     std::vector<Case> all;
     for (const std::string& context : contexts())
-        for (const std::string format : {"rgba8", "rgba16f", "rgba32f"})
-            for (const std::size_t layers : {1, 2, 4, 16}) all.push_back({context, format, layers});
+        for (const std::string& format : formats)
+            for (const std::size_t count : layers) all.push_back({context, format, count, size_px});
     return all;
 }
 
@@ -239,9 +153,17 @@ std::string case_name(const testing::TestParamInfo<Case>& test_case) {
     return values.context + "_" + values.format + "_" + std::to_string(values.layers);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Layers, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, Layers, testing::ValuesIn(cases({"rgba8", "rgba16f", "rgba32f"}, {1, 2, 4, 16}, 32)),
+                         case_name);
+/// 1,024 layers take seconds with every method, and contexts differ in nothing that grows with layers.
+std::vector<Case> many_layers() {
+    std::vector<Case> all = cases({"rgba8", "rgba16f"}, {64}, 4);
+    for (const char* format : {"rgba8", "rgba16f"}) all.push_back({"egl", format, 1024, 4});
+    return all;
+}
+INSTANTIATE_TEST_SUITE_P(All, ManyLayers, testing::ValuesIn(many_layers()), case_name);
 
-TEST(Methods, EachDescribesItselfAndHasARow) {
+TEST(Methods, EachDescribesItself) {
     for (const MethodInfo& method : all_methods()) {
         SCOPED_TRACE(method.id);
         EXPECT_FALSE(method.name.empty());
@@ -253,12 +175,54 @@ TEST(Methods, EachDescribesItselfAndHasARow) {
         EXPECT_FALSE(method.memory.empty());
         EXPECT_TRUE(method.make);
         for (const Param& param : method.parameters) EXPECT_FALSE(param.summary.empty()) << param.name;
-        EXPECT_TRUE(std::ranges::any_of(rows(), [&](const MethodRow& row) { return row.method["id"] == method.id; }))
-            << "add a row to tests/render/layers_test.cpp";
     }
 }
 
-/// Two layers by hand: red 0.5 over green 0.25 over (0.2, 0.4, 0.6):
+TEST(Methods, EachHasARow) {
+    for (const MethodInfo& method : all_methods()) {
+        SCOPED_TRACE(method.id);
+        ASSERT_NO_THROW(method_row(method.id)) << "add tests/render/methods/" << method.id << ".cpp";
+        EXPECT_FALSE(method_row(method.id).variants.empty());
+        EXPECT_TRUE(method_row(method.id).formula);
+    }
+    for (const MethodRow& row : all_method_rows()) EXPECT_NE(find_method(row.id), nullptr) << row.id;
+    try {
+        method_row("none");
+        FAIL() << "a method without a row was given one";
+    } catch (const std::out_of_range& error) {
+        EXPECT_STREQ(error.what(), "none has no row: add tests/render/methods/none.cpp");
+    }
+}
+
+TEST(WorstPixel, IsFoundWhereAValueIsNoNumber) {
+    const Compositor compositor({{"layers", nlohmann::json::array()}}, 2, background);
+    const Formula below = [](const Stack& stack) { return stack.below; };
+    Image image(2, 2);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x)
+            for (std::size_t c = 0; c < 3; ++c) image.pixel(x, y)[c] = static_cast<float>(background[c]);
+    EXPECT_EQ(worst_pixel(image, compositor, below, rounded_once, PixelFormat::rgba8).bounds, 0);
+    image.pixel(1, 0)[2] = std::numeric_limits<float>::quiet_NaN();
+    const Worst worst = worst_pixel(image, compositor, below, rounded_once, PixelFormat::rgba8);
+    EXPECT_GT(worst.bounds, 1);
+    EXPECT_NE(worst.text.find("pixel (1, 0), channel b: expected 0.6"), std::string::npos) << worst.text;
+}
+
+/// Bounds that grow with the number of layers could become meaningless.
+TEST(Bounds, OfAThousandLayersAreStillNarrow) {
+    const Case test_case = {"", "", 1024, 4};
+    const Compositor compositor(parse_spec({{"scene", full_layers(test_case)}, {"methods", {"b2f"}}}).scene, 4,
+                                background);
+    const Stack stack = compositor.stack(0, 0);
+    ASSERT_EQ(stack.fragments.size(), 1024u);
+    for (const auto bound : {rounded_back_to_front, rounded_front_to_back, rounded_with_opacity}) {
+        EXPECT_LT(bound(stack, PixelFormat::rgba8), 20.0 / 255);
+        // The step of opacity that may be missing lets a little of every layer through.
+        EXPECT_LT(bound(stack, PixelFormat::rgba16f), bound == rounded_with_opacity ? 0.4 : 0.02);
+    }
+}
+
+/// Two layers worked out by hand: red 0.5 over green 0.25 over (0.2, 0.4, 0.6):
 /// green over the background (0.15, 0.55, 0.45), red over that (0.575, 0.275, 0.225).
 TEST(LayersByHand, Two) {
     const nlohmann::json scene = {{"type", "layers"},
@@ -270,9 +234,8 @@ TEST(LayersByHand, Two) {
     Stage stage(*context, spec, PixelFormat::rgba32f);
     for (const MethodSpec& method : spec.methods) {
         const Image image = stage.picture(method);
-        // Submitted near first, so without sorting green lies over red: red (0.6, 0.2, 0.3), green (0.45, 0.4, 0.225).
-        const std::array<double, 3> expected =
-            method.id == "unsorted" ? std::array{0.45, 0.4, 0.225} : std::array{0.575, 0.275, 0.225};
+        // Submitted near first, so without sorting green is over red: red (0.6, 0.2, 0.3), green (0.45, 0.4, 0.225).
+        const Color expected = method.id == "unsorted" ? Color{0.45, 0.4, 0.225} : Color{0.575, 0.275, 0.225};
         for (int channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(image.pixel(2, 1)[channel], expected[channel], 1e-6) << method.id;
     }

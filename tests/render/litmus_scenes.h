@@ -5,22 +5,24 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "renderer/scene/scene_info.h"
+#include "renderer/spec/spec.h"
 #include "tests/render/compositor.h"
 
 namespace sheer::test {
 
 inline constexpr int litmus_size_px = 16;
 
-/// A litmus scene as layers, whose edges lie on pixel corners. Two planes that cross are layers of one column of
-/// pixels each, at the depth that the plane has in the middle of that column.
+/// A litmus scene as layers, whose edges are on pixel corners. Two planes that cross are represented by layers of one
+/// column of pixels each, at the plane's depth in the middle of that column.
 struct LitmusScene {
     nlohmann::json layers = nlohmann::json::array();  ///< as submitted
-    Compositor::Color background = {0.1, 0.15, 0.05};
-    std::optional<Geometry> planes;  ///< what is rendered in place of `layers`
-    nlohmann::json sorted_layers;    ///< `layers` with the depths that a sort of primitives goes by; null: the same
+    Color background = {0.1, 0.15, 0.05};
+    std::optional<Geometry> planes;  ///< what is rendered instead of `layers`
+    nlohmann::json sorted_layers;    ///< `layers` with the depths by which primitives are sorted; null: the same
 
     Spec spec(const nlohmann::json& method) const {
         return parse_spec({{"scene", {{"type", "layers"}, {"layers", layers}}},
@@ -43,19 +45,19 @@ struct LitmusScene {
     Compositor compositor(const nlohmann::json& of) const { return {{{"layers", of}}, litmus_size_px, background}; }
 };
 
-inline nlohmann::json litmus_layer(double depth, const Compositor::Color& color, double alpha, bool opaque = false,
+inline nlohmann::json litmus_layer(double depth, const Color& color, double alpha, bool opaque = false,
                                    const std::array<double, 4>& rect = {0, 0, 1, 1}) {
     return {{"rect", rect}, {"depth", depth}, {"color", color}, {"alpha", alpha}, {"opaque", opaque}};
 }
 
-/// The same rectangles whatever the order.
+/// The same rectangles in any order.
 inline LitmusScene shuffled_scene(std::uint64_t order) {
     Random random(11);
     std::vector<nlohmann::json> layers;
     for (int i = 0; i < 8; ++i) {
         std::array<double, 4> at{};
         for (double& each : at) each = static_cast<double>(random.below(8)) / litmus_size_px;
-        Compositor::Color color{};
+        Color color{};
         for (double& each : color) each = random.unit();
         layers.push_back(litmus_layer(0.1 + 0.1 * i, color, random.between(0.05, 1), false,
                                       {at[0], at[1], at[0] + 0.25 + at[2], at[1] + 0.25 + at[3]}));
@@ -70,7 +72,7 @@ inline LitmusScene shuffled_scene(std::uint64_t order) {
 /// Three layers over black, white, or a checkerboard of squares of four pixels.
 inline LitmusScene backdrop_scene(const std::string& id) {
     LitmusScene scene;
-    scene.background = id == "white" ? Compositor::Color{1, 1, 1} : Compositor::Color{0, 0, 0};
+    scene.background = id == "white" ? Color{1, 1, 1} : Color{0, 0, 0};
     scene.layers = {litmus_layer(0.2, {0.2, 0.3, 0.9}, 0.5), litmus_layer(0.4, {0.1, 0.8, 0.3}, 0.5),
                     litmus_layer(0.6, {0.9, 0.2, 0.1}, 0.5)};
     if (id != "checker") return scene;
@@ -83,8 +85,8 @@ inline LitmusScene backdrop_scene(const std::string& id) {
     return scene;
 }
 
-/// In four columns with their own alpha, layers from near to far.
-inline LitmusScene column_scene(const std::array<double, 4>& alphas, const std::vector<Compositor::Color>& colors) {
+/// Layers from near to far, in four columns with their own alpha.
+inline LitmusScene column_scene(const std::array<double, 4>& alphas, const std::vector<Color>& colors) {
     LitmusScene scene;
     for (std::size_t column = 0; column < alphas.size(); ++column)
         for (std::size_t i = 0; i < colors.size(); ++i)
@@ -94,12 +96,11 @@ inline LitmusScene column_scene(const std::array<double, 4>& alphas, const std::
     return scene;
 }
 
-/// Two planes over the whole picture, one going back from the left to the right, one coming forward; they cut each
-/// other between two columns of pixels. Their middles are equally far, so a sort takes the later submitted for the
-/// nearer.
+/// Two planes over the whole picture; from left to right, one recedes and the other approaches. They intersect between
+/// two columns of pixels. Their middles are equally far, so a sort takes the one submitted later as nearer.
 inline LitmusScene crossing_scene(double alpha) {
     const std::array<std::array<float, 2>, 2> depths = {{{0.2f, 0.8f}, {0.8f, 0.2f}}};  // left and right
-    const std::array<Compositor::Color, 2> colors = {{{0.2, 0.3, 0.9}, {0.9, 0.6, 0.1}}};
+    const std::array<Color, 2> colors = {{{0.2, 0.3, 0.9}, {0.9, 0.6, 0.1}}};
     LitmusScene scene;
     scene.planes.emplace();
     scene.sorted_layers = nlohmann::json::array();
@@ -134,19 +135,88 @@ inline LitmusScene opaque_scene(double opaque_depth) {
 inline LitmusScene many_layers_scene() {
     LitmusScene scene;
     for (int i = 0; i < 64; ++i) {
-        const Compositor::Color color = i < 8    ? Compositor::Color{0.9, 0.2, 0.1}
-                                        : i < 32 ? Compositor::Color{0.1, 0.3, 0.9}
-                                                 : Compositor::Color{0.2, 0.8, 0.2};
+        const Color color = i < 8 ? Color{0.9, 0.2, 0.1} : i < 32 ? Color{0.1, 0.3, 0.9} : Color{0.2, 0.8, 0.2};
         scene.layers.push_back(litmus_layer((i + 1) / 66.0, color, 1.0 / 16));
     }
     return scene;
 }
 
-/// By its id in litmus.json; `shuffled` is one of several, see above.
+/// Layers of different alphas: formulas that agree for equal ones differ.
+inline LitmusScene unequal_scene() {
+    LitmusScene scene;
+    scene.layers = {litmus_layer(0.2, {0.2, 0.3, 0.9}, 0.2), litmus_layer(0.5, {0.9, 0.2, 0.1}, 0.7),
+                    litmus_layer(0.8, {0.1, 0.9, 0.2}, 0.4)};
+    return scene;
+}
+
+/// What is opaque but drawn as transparent, as leaves are, must hide what is behind it, also behind glass.
+inline LitmusScene window_scene() {
+    LitmusScene scene;
+    scene.layers = {litmus_layer(0.2, {0.2, 0.3, 0.9}, 0.3), litmus_layer(0.5, {0.1, 0.8, 0.2}, 1),
+                    litmus_layer(0.8, {0.9, 0.2, 0.1}, 1)};
+    return scene;
+}
+
+/// Two layers whose depths hardly differ, for methods that weigh depths or divide them into cells.
+inline LitmusScene close_pair_scene() {
+    LitmusScene scene;
+    scene.layers = {litmus_layer(0.1, {0.9, 0.2, 0.1}, 0.6), litmus_layer(0.1 + 1.0 / 512, {0.1, 0.2, 0.9}, 0.6),
+                    litmus_layer(0.9, {0.2, 0.9, 0.3}, 0.6)};
+    return scene;
+}
+
+/// More layers than most methods keep, submitted neither from near to far nor from far to near.
+inline LitmusScene interleaved_scene() {
+    LitmusScene scene;
+    for (int i = 0; i < 16; ++i) {
+        const int layer = 7 * i % 16;
+        scene.layers.push_back(
+            litmus_layer((layer + 1) / 18.0, layer % 2 == 0 ? Color{1, 0.1, 0} : Color{0, 0.4, 1}, 0.3));
+    }
+    return scene;
+}
+
+/// What docs/litmus.md says about a scene.
+struct LitmusSceneInfo {
+    std::string id, name, what;
+};
+
+inline const std::vector<LitmusSceneInfo>& litmus_scene_infos() {
+    static const std::vector<LitmusSceneInfo> all = {
+        {"shuffled", "Shuffled",
+         "Eight overlapping rectangles submitted in six orders. Passes: the same picture each time, correct or not."},
+        {"black", "Black", "Three full layers of alpha 0.5 over a black background."},
+        {"white", "White", "The same over a white background."},
+        {"checker", "Checker", "The same over an opaque black and white checkerboard."},
+        {"alpha_to_0", "Alpha to 0",
+         "Six layers of alpha 1/128, 1/256, 1/512 and 0, from the left to the right of the picture."},
+        {"alpha_to_1", "Alpha to 1",
+         "Four layers of alpha 127/128, 255/256, 511/512 and 1, from the left to the right of the picture."},
+        {"glass", "Crossing glass",
+         "Two planes of alpha 0.5 that intersect: on the left one is nearer, on the right the other."},
+        {"leaves", "Crossing leaves", "The same planes with alpha 1, as leaves are within their outline."},
+        {"opaque_front", "Opaque in front", "An opaque plane in front of two layers of alpha 0.5."},
+        {"opaque_behind", "Opaque behind", "An opaque plane behind two layers of alpha 0.5."},
+        {"opaque_between", "Opaque between", "An opaque plane between two layers of alpha 0.5."},
+        {"one_layer", "One layer",
+         "One layer of alpha 0.2, 0.4, 0.6 and 0.8, from the left to the right of the picture."},
+        {"64_layers", "64 layers", "64 layers of alpha 1/16: the nearest eight red, the next 24 blue, the rest green."},
+        {"unequal", "Unequal alphas", "Three layers of alpha 0.2, 0.7 and 0.4, from near to far."},
+        {"window", "Window",
+         "Glass of alpha 0.3 in front of a leaf of alpha 1 that is drawn as transparent, in front of another leaf."},
+        {"close_pair", "Close pair",
+         "Two layers of alpha 0.6 at the depths 0.1 and 0.1 + 1/512, and one of alpha 0.6 at 0.9."},
+        {"interleaved", "Interleaved",
+         "Sixteen layers of alpha 0.3, alternately red and blue; the i-th that is submitted is number 7 i mod 16 in "
+         "depth."}};
+    return all;
+}
+
+/// By its id; `shuffled` is one of several, see above.
 inline LitmusScene litmus_scene(const std::string& id) {
     if (id == "black" || id == "white" || id == "checker") return backdrop_scene(id);
     if (id == "alpha_to_0") {
-        const Compositor::Color light = {1, 1, 1}, lighter = {0.9, 0.8, 0.9};
+        const Color light = {1, 1, 1}, lighter = {0.9, 0.8, 0.9};
         return column_scene({1.0 / 128, 1.0 / 256, 1.0 / 512, 0}, {light, lighter, light, lighter, light, lighter});
     }
     if (id == "alpha_to_1")
@@ -159,6 +229,10 @@ inline LitmusScene litmus_scene(const std::string& id) {
     if (id == "opaque_between") return opaque_scene(0.5);
     if (id == "opaque_behind") return opaque_scene(0.9);
     if (id == "64_layers") return many_layers_scene();
+    if (id == "unequal") return unequal_scene();
+    if (id == "window") return window_scene();
+    if (id == "close_pair") return close_pair_scene();
+    if (id == "interleaved") return interleaved_scene();
     throw std::invalid_argument("there is no litmus scene " + id);
 }
 

@@ -1,65 +1,57 @@
-// Litmus scenes: every method on each of them, with the outcome that its theory predicts. The rows are those of
-// litmus.json beside this file, which docs/litmus.md is made from.
-#include <cmath>
-#include <fstream>
+// Litmus scenes: every method on each of them, with the outcome that its theory predicts. The expectations are in the
+// methods' rows, tests/render/methods/<id>.cpp, from which docs/litmus.md is made.
+#include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "tests/render/litmus_page.h"
+#include "tests/render/litmus_pairs.h"
 #include "tests/render/litmus_scenes.h"
+#include "tests/render/method_row.h"
 #include "tests/render/render_test.h"
+#include "tests/source_folder.h"
 
 namespace sheer::test::litmus_test {
 
 namespace {
 
 using nlohmann::json;
-using Order = Compositor::Order;
 
 constexpr double passes_within = 3.0 / 255, fails_from = 6.0 / 255;
 
-const json& litmus() {
-    static const json read = json::parse(std::ifstream(SHEER_SOURCE_DIR "/tests/render/litmus.json"));
-    return read;
+/// A litmus entry of a method's row.
+struct Entry {
+    const MethodRow* row;
+    const LitmusEntry* litmus;
+};
+
+std::vector<Entry> all_entries() {
+    std::vector<Entry> all;
+    for (const MethodRow& row : all_method_rows())
+        for (const LitmusEntry& entry : row.litmus) all.push_back({&row, &entry});
+    return all;
 }
 
-/// How much a picture in 32-bit floats may be off the formula: the roundings of up to 64 layers; and for the methods
-/// with a threshold of 0.01 what they may leave out.
-double formula_tolerance(const std::string& id) {
-    return id == "f2bd" || id == "depth_marks" ? 0.01 : 64e-5;
+bool is_one_drivers(const MethodRow& row) {
+    return std::ranges::any_of(row.variants, &MethodVariant::software_only);
 }
 
-/// Front to back up to the cap of 8, without what is under min_alpha. Full pixels see the previous frame behind: in an
-/// even picture P(n) = A + T P(n - 1), with P(1) = A + T D.
-Compositor::Color stencil_cap(Compositor::Stack stack, int frames) {
-    constexpr std::size_t cap = 8;
-    std::erase_if(stack.fragments, [](const auto& fragment) { return fragment.alpha < 0.02; });
-    std::ranges::stable_sort(stack.fragments, std::greater(), &Compositor::Fragment::depth);
-    if (stack.fragments.size() <= cap) return Compositor::over(stack);
-    stack.fragments.erase(stack.fragments.begin(), stack.fragments.end() - cap);
-    for (int frame = 1; frame < frames; ++frame) stack.below = Compositor::over(stack);
-    return Compositor::over(stack);
-}
-
-/// What theory says that this method makes of the scene; nothing where the formula is that of one driver.
-std::optional<Compositor::Color> predicted(const json& method, const Compositor& per_pixel,
-                                           const Compositor& per_primitive, int x, int y, bool software) {
-    const std::string id = method.at("id");
-    if (id == "exact" || id == "depth_peeling") return per_pixel.pixel(x, y, Order::by_depth);
-    if (id == "f2bx") return per_pixel.pixel(x, y, Order::black);
-    if (id == "unsorted") return per_pixel.pixel(x, y, Order::by_submission);
-    if (id == "meshkin")
-        return per_pixel.pixel(
-            x, y, method.value("variant", "simple") == "full" ? Order::meshkin_full : Order::meshkin_simple);
-    if (id == "ssam") return per_pixel.pixel(x, y, Order::ssam);
-    if (id == "alpha_test") return per_pixel.pixel(x, y, Order::alpha_test);
-    if (id == "stencil_cap") return stencil_cap(per_primitive.stack(x, y), 30);
-    if (id != "alpha_to_coverage") return per_primitive.pixel(x, y, Order::by_depth);
-    if (!software) return std::nullopt;
-    return per_pixel.pixel(x, y, Order::alpha_to_coverage);
-}
-
-double difference(const Compositor::Color& color, const float* pixel) {
+/// Infinite for a pixel that is not a number.
+double difference(const Color& color, const float* pixel) {
     double greatest = 0;
-    for (std::size_t i = 0; i < 3; ++i) greatest = std::max(greatest, std::abs(color[i] - double{pixel[i]}));
+    for (std::size_t i = 0; i < 3; ++i)
+        greatest = std::max(greatest, std::isfinite(pixel[i]) ? std::abs(color[i] - double{pixel[i]})
+                                                              : std::numeric_limits<double>::infinity());
     return greatest;
+}
+
+/// 0 for methods that draw the same picture each time.
+double noise_of(const MethodRow& row, const json& parameters, const Stack& stack) {
+    return row.noise ? row.noise(parameters)(stack, PixelFormat::rgba32f) : 0;
 }
 
 class LitmusTest : public testing::Test {
@@ -69,91 +61,165 @@ class LitmusTest : public testing::Test {
         return Stage(*m_context, spec, PixelFormat::rgba32f, scene.geometry(spec)).picture(spec.methods[0]);
     }
 
-    /// The greatest error of the picture; the picture must be what theory says.
-    double error_of(const Image& image, const LitmusScene& scene, const json& method) const {
-        const Compositor truth = scene.truth(), as_sorted = scene.as_sorted();
-        double error = 0, off_formula = 0;
+    /// The greatest error of the picture, of a stochastic method that which is more than chance; also checks that the
+    /// picture agrees with the method's formula.
+    double error_of(const Image& image, const LitmusScene& scene, const MethodRow& row, const json& parameters) const {
+        const Compositor truth = scene.truth(), seen = row.sorts_primitives ? scene.as_sorted() : truth;
+        const Formula formula = row.formula(parameters);
+        const bool has_formula = m_context->device().software || !is_one_drivers(row);
+        double error = 0;
         for (int y = 0; y < litmus_size_px; ++y)
             for (int x = 0; x < litmus_size_px; ++x) {
-                const auto pixel = image.pixel(x, y);
-                error = std::max(error, difference(truth.pixel(x, y, Order::by_depth), &pixel[0]));
-                const auto formula = predicted(method, truth, as_sorted, x, y, m_context->device().software);
-                if (formula) off_formula = std::max(off_formula, difference(*formula, &pixel[0]));
+                const float* pixel = image.pixel(x, y);
+                const double by_chance = noise_of(row, parameters, truth.stack(x, y));
+                error = std::max(error, difference(truth.pixel(x, y, over_by_depth), pixel) - by_chance);
+                if (!has_formula) continue;
+                Color expected = seen.pixel(x, y, formula);
+                for (double& channel : expected) channel = std::clamp(channel, 0.0, 1.0);
+                EXPECT_LE(difference(expected, pixel), row.litmus_tolerance + by_chance)
+                    << fmt::format("pixel ({}, {}): expected {:.6g} {:.6g} {:.6g}, actual {:.6g} {:.6g} {:.6g}", x, y,
+                                   expected[0], expected[1], expected[2], pixel[0], pixel[1], pixel[2]);
             }
-        EXPECT_LE(off_formula, formula_tolerance(method.at("id")));
         return error;
     }
 
     /// How much the picture differs from one order of submission to another.
-    double change_by_order(const json& method) {
+    double change_by_order(const MethodRow& row, const json& parameters) {
         std::vector<Image> pictures;
+        const Compositor truth = shuffled_scene(0).truth();
         for (const std::uint64_t order : {0, 1, 2, 3, 4, 5}) {
             const LitmusScene scene = shuffled_scene(order);
-            pictures.push_back(picture(scene, method));
-            error_of(pictures.back(), scene, method);
+            pictures.push_back(picture(scene, method_json(row, parameters)));
+            error_of(pictures.back(), scene, row, parameters);
         }
         double greatest = 0;
-        for (const Image& image : pictures) greatest = std::max(greatest, greatest_difference(pictures[0], image));
+        for (const Image& image : pictures)
+            for (int y = 0; y < litmus_size_px; ++y)
+                for (int x = 0; x < litmus_size_px; ++x) {
+                    const float* first = pictures[0].pixel(x, y);
+                    greatest = std::max(greatest, difference({first[0], first[1], first[2]}, image.pixel(x, y)) -
+                                                      2 * noise_of(row, parameters, truth.stack(x, y)));
+                }
         return greatest;
     }
 
     const std::unique_ptr<gl::Context> m_context = make_context("egl");
 };
 
-/// A method's place in the table.
-class Litmus : public LitmusTest, public testing::WithParamInterface<std::size_t> {};
+class Litmus : public LitmusTest, public testing::WithParamInterface<Entry> {
+  protected:
+    void expect(const LitmusExpectation& expectation, const std::string& scene_id, const json& parameters) {
+        const MethodRow& row = *GetParam().row;
+        const bool shuffled = scene_id == "shuffled";
+        double error = 0;
+        if (shuffled) {
+            error = change_by_order(row, parameters);
+        } else {
+            const LitmusScene scene = litmus_scene(scene_id);
+            error = error_of(picture(scene, method_json(row, parameters)), scene, row, parameters);
+        }
+        if (expectation.passes) {
+            // Additions in another order round differently.
+            EXPECT_LE(error, shuffled ? 1e-6 : passes_within) << expectation.why;
+        } else {
+            EXPECT_GE(error, fails_from) << expectation.why;
+        }
+    }
+};
 
 TEST_P(Litmus, AsItsTheoryPredicts) {
-    const json& entry = litmus().at("methods").at(GetParam());
-    for (const json& row : entry.at("rows"))
-        for (const std::string id : row.at("scenes"))
-            for (const json& method : entry.at("variants")) {
-                SCOPED_TRACE(method.dump() + " on " + id);
-                const bool shuffled = id == "shuffled";
-                double error = 0;
-                if (shuffled) {
-                    error = change_by_order(method);
-                } else {
-                    const LitmusScene scene = litmus_scene(id);
-                    error = error_of(picture(scene, method), scene, method);
-                }
-                if (row.at("expect") == "passes") {
-                    // Additions in another order round otherwise.
-                    EXPECT_LE(error, shuffled ? 1e-6 : passes_within) << row.at("why");
-                } else {
-                    EXPECT_GE(error, fails_from) << row.at("why");
-                }
+    for (const LitmusExpectation& expectation : GetParam().litmus->expectations)
+        for (const std::string& scene : expectation.scenes)
+            for (const json& parameters : GetParam().litmus->variants) {
+                SCOPED_TRACE(GetParam().row->id + " " + parameters.dump() + " on " + scene);
+                expect(expectation, scene, parameters);
             }
 }
 
-std::string entry_name(const testing::TestParamInfo<std::size_t>& place) {
-    std::string name = litmus().at("methods").at(place.param).at("name");
+std::string entry_name(const testing::TestParamInfo<Entry>& entry) {
+    std::string name = entry_name(*entry.param.row, *entry.param.litmus);
     std::ranges::replace_if(
         name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Litmus, testing::Range(std::size_t{0}, litmus().at("methods").size()), entry_name);
+void PrintTo(const Entry& entry, std::ostream* out) {
+    *out << entry_name(*entry.row, *entry.litmus);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Litmus, testing::ValuesIn(all_entries()), entry_name);
 
 TEST(LitmusTable, HasEveryMethodOnEveryScene) {
-    for (const MethodInfo& method : all_methods()) {
-        const auto is_it = [&](const json& entry) { return entry.at("variants").at(0).at("id") == method.id; };
-        EXPECT_TRUE(std::ranges::any_of(litmus().at("methods"), is_it))
-            << method.id << ": add its rows to tests/render/litmus.json, and its formula to litmus_test.cpp";
-    }
-    for (const json& entry : litmus().at("methods")) {
-        SCOPED_TRACE(entry.at("name"));
-        std::vector<std::string> covered, all;
-        for (const json& scene : litmus().at("scenes")) all.push_back(scene.at("id"));
-        for (const json& row : entry.at("rows")) {
-            EXPECT_TRUE(row.at("expect") == "passes" || row.at("expect") == "fails") << row;
-            EXPECT_FALSE(row.at("why").get<std::string>().empty()) << row;
-            for (const json& scene : row.at("scenes")) covered.push_back(scene);
+    std::vector<std::string> all;
+    for (const LitmusSceneInfo& scene : litmus_scene_infos()) all.push_back(scene.id);
+    std::ranges::sort(all);
+    for (const MethodRow& row : all_method_rows()) {
+        EXPECT_FALSE(row.litmus.empty()) << row.id;
+        for (const LitmusEntry& entry : row.litmus) {
+            SCOPED_TRACE(entry_name(row, entry));
+            EXPECT_FALSE(entry.variants.empty());
+            std::vector<std::string> covered;
+            for (const LitmusExpectation& expectation : entry.expectations) {
+                EXPECT_FALSE(expectation.why.empty());
+                covered.insert(covered.end(), expectation.scenes.begin(), expectation.scenes.end());
+            }
+            std::ranges::sort(covered);
+            EXPECT_EQ(covered, all);
         }
-        std::ranges::sort(covered);
-        std::ranges::sort(all);
-        EXPECT_EQ(covered, all);
     }
+}
+
+/// `./dev docs` sets SHEER_WRITE_DOCS, which rewrites it.
+TEST(LitmusTable, IsWhatTheDocsSay) {
+    const std::string path = source_folder() + std::string("/docs/litmus.md");
+    const std::string page =
+        litmus_page(litmus_scene_infos(), all_method_rows()) + pairs_section(compare_formulas(all_method_rows()));
+    if (std::getenv("SHEER_WRITE_DOCS") != nullptr) std::ofstream(path) << page;
+    std::stringstream text;
+    text << std::ifstream(path).rdbuf();
+    EXPECT_EQ(text.str(), page) << "docs/litmus.md is out of date: ./dev docs rewrites it";
+}
+
+/// Formulas that differ on some scene by more than passes anywhere differ on one by as much as fails.
+TEST(LitmusPairs, AreToldApartBySomeScene) {
+    const FormulaPairs pairs = compare_formulas(all_method_rows());
+    std::size_t entries = 0;
+    for (std::size_t i = 0; i < pairs.groups.size(); ++i) {
+        entries += pairs.groups[i].entries.size();
+        for (std::size_t k = 0; k < i; ++k)
+            EXPECT_GE(pairs.cells[i][k].difference, fails_from)
+                << pairs.groups[i].entries[0] << " and " << pairs.groups[k].entries[0] << " on "
+                << pairs.cells[i][k].scene;
+    }
+    EXPECT_EQ(entries, all_entries().size());
+}
+
+/// Those that are exact for each pixel, and those that sort primitives.
+TEST(LitmusPairs, FormulasThatAreTheSameAreOneGroup) {
+    const auto group_of = [](const FormulaPairs& pairs, const std::string& entry) {
+        return std::ranges::find_if(
+            pairs.groups, [&](const FormulaGroup& group) { return std::ranges::count(group.entries, entry) > 0; });
+    };
+    const FormulaPairs pairs = compare_formulas(all_method_rows());
+    EXPECT_EQ(group_of(pairs, "exact"), group_of(pairs, "depth_peeling"));
+    EXPECT_EQ(group_of(pairs, "b2f"), group_of(pairs, "f2bd"));
+    EXPECT_NE(group_of(pairs, "exact"), group_of(pairs, "b2f"));
+    const std::string section = pairs_section({{{{"x"}}, {{"y", "z"}}}, {{{}, {"white", 0.5}}, {{"white", 0.5}, {}}}});
+    EXPECT_NE(section.find("| | formula | A | B |\n|---|---|---|---|\n| A | x | | 3 |\n| B | y; z | 3 | |\n"),
+              std::string::npos)
+        << section;
+}
+
+TEST(LitmusPage, SaysWhatTheRowsSay) {
+    const std::vector<LitmusSceneInfo> scenes = {{"a", "First", "One."}, {"b", "Second", "Two."}};
+    const MethodRow row = {.id = "f2b",
+                           .litmus = {{"", {json::object()}, {{{"b"}, true, "it can"}, {{"a"}, false, "it cannot"}}}}};
+    const std::string page = litmus_page(scenes, {row});
+    for (const char* part : {"| 1 | First | One. |\n| 2 | Second | Two. |\n",
+                             "| method | First | Second |\n|---|---|---|\n| f2b | **fails** | passes |\n",
+                             "### f2b\nTested as `{\"id\":\"f2b\"}`.\n\n- Second: **passes**, because it can.\n"
+                             "- First: **fails**, because it cannot.\n"})
+        EXPECT_NE(page.find(part), std::string::npos) << part << " is not in " << page;
 }
 
 class LitmusDetails : public LitmusTest {};
@@ -163,7 +229,7 @@ class LitmusDetails : public LitmusTest {};
 TEST_F(LitmusDetails, MeshkinIsOffByTheTermsOfTheSlides) {
     const LitmusScene scene = litmus_scene("alpha_to_1");
     const int x = litmus_size_px - 1;
-    const Compositor::Stack stack = scene.truth().stack(x, 3);
+    const Stack stack = scene.truth().stack(x, 3);
     ASSERT_EQ(stack.fragments.size(), 4u);
     for (const double weight_of_d : {3.0, 6.0}) {
         const Image image = picture(scene, {{"id", "meshkin"}, {"variant", weight_of_d == 3 ? "simple" : "full"}});
@@ -177,7 +243,7 @@ TEST_F(LitmusDetails, MeshkinIsOffByTheTermsOfTheSlides) {
     }
 }
 
-/// With all depths at 1 nothing would hide what is behind it.
+/// If all depths were 1, nothing would hide what is behind it.
 TEST_F(LitmusDetails, NoPassKeepsTheDepthRangeOfThoseBefore) {
     const LitmusScene scene = litmus_scene("opaque_between");
     for (const MethodInfo& method : all_methods()) {
@@ -189,7 +255,7 @@ TEST_F(LitmusDetails, NoPassKeepsTheDepthRangeOfThoseBefore) {
     }
 }
 
-/// The layers after the eighth have no say, and each frame leaves the share T of what was wrong before it.
+/// The layers after the eighth have no effect, and each frame keeps the share T of the previous frame's error.
 TEST_F(LitmusDetails, StencilCapLosesLayersAndSettles) {
     LitmusScene scene = litmus_scene("64_layers");
     const json method = {{"id", "stencil_cap"}};
@@ -198,7 +264,7 @@ TEST_F(LitmusDetails, StencilCapLosesLayersAndSettles) {
     EXPECT_EQ(greatest_difference(picture(scene, method), before), 0);
 
     const double transmittance = std::pow(15.0 / 16, 8);
-    const Compositor::Color settled = {0.9, 0.2, 0.1};
+    const Color settled = {0.9, 0.2, 0.1};
     for (const int frames : {1, 2, 5, 30}) {
         const Image image = picture(scene, {{"id", "stencil_cap"}, {"frames", frames}});
         const float* pixel = image.pixel(4, 9);

@@ -1,4 +1,4 @@
-// Meshkin's approximation against the numbers of his slides, and at the ends of its range.
+// Meshkin's approximation compared with the numbers on his slides, and at the limits of its range.
 #include <cmath>
 
 #include "tests/render/render_test.h"
@@ -54,11 +54,12 @@ constexpr SlideRow slide_rows[] = {{0, 0, 0, 0, 0, 0},
                                    {0.75, 2.00390625, 3.375, 0.73828125, 0.703125, 0.5625},
                                    {1, 3, 6, 1, 1, 1}};
 
-/// D, C0 .. C3 for which no result of any row leaves 0..1, also when one of them is raised by `step`.
+/// D, C0 .. C3 for which no result of any row leaves 0..1, even if one of them is raised by `step`.
 constexpr std::array<double, 5> base = {0.1, 0.25, 0.25, 0.25, 0.25};
 constexpr double step = 0.05;
 
-/// The error is linear in D and C0 .. C3: what raising one of them adds to it, divided by the step, is its coefficient.
+/// The error is linear in D and C0 .. C3: the increase from raising one of them, divided by the step, is its
+/// coefficient.
 TEST(Meshkin, ErrorsAreThoseOfTheSlides) {
     for (const SlideRow& row : slide_rows) {
         json layers = json::array();
@@ -83,8 +84,8 @@ TEST(Meshkin, ErrorsAreThoseOfTheSlides) {
     }
 }
 
-/// The same in the formats that accumulate in 16 bits: sums of up to 4 are right to 2^-9, and in 8 bits D, which is
-/// right to half a level, is weighed by up to 6.
+/// The same in the formats that accumulate in 16 bits: sums of up to 4 are accurate to 2^-9, and in 8 bits D, which is
+/// accurate to half a level, has a weight of up to 6.
 TEST(Meshkin, ErrorsAreThoseOfTheSlidesIn16Bits) {
     for (const SlideRow& row : slide_rows) {
         json layers = json::array();
@@ -163,7 +164,7 @@ TEST(Meshkin, FullStaysFinite) {
     for (int i = 0; i < 300; ++i) layers.push_back(layer(0.5, 0.25, 1 / 255.0));
     // Without the terms that vanish: 0.5 + (0.25 - 0.5) * 300 / 255.
     EXPECT_NEAR(gray_of(layers, variant("full"), "rgba32f"), 0.5 - 0.25 * 300 / 255, 1e-4);
-    // A sum of 300 roundings of at most 2^-12 each, for the colours and, weighed by D, for the alphas.
+    // A sum of 300 roundings of at most 2^-12 each, for the colors and, weighted by D, for the alphas.
     EXPECT_NEAR(gray_of(layers, variant("full"), "rgba16f"), 0.5 - 0.25 * 300 / 255, 300 * 1.5 * 0x1p-12);
     EXPECT_FALSE(std::isnan(gray_of({opaque(0.9, 0.5), layer(0.5, 0.25, 1e-7)}, variant("full"), "rgba16f")));
 }
@@ -181,7 +182,8 @@ TEST(Meshkin, FullKeepsReciprocalsBeyondHalfFloats) {
             EXPECT_NEAR(gray_of(layers, variant("full"), format), expected, format == "rgba32f" ? 1e-6 : 4e-3)
                 << format << e;
         }
-    // Alone it gives A C and nothing of D, as one layer does: the formula's, though its sum is 0 in half floats.
+    // Alone it gives A C with no part of D, like any single layer: as in the formula, although its sum is 0 in half
+    // floats.
     for (const std::string format : {"rgba16f", "rgba32f"})
         EXPECT_NEAR(gray_of({opaque(0.9, d), layer(0.2, c, 1e-9)}, variant("full"), format), 0, 1e-6) << format;
 }

@@ -1,7 +1,7 @@
 // A comparison in which nothing transparent is drawn says so, with its cause.
 #include <gmock/gmock.h>
 
-#include "renderer/compare.h"
+#include "renderer/compare/compare.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::nothing_drawn_test {
@@ -29,7 +29,7 @@ sheer::Run compare_scene(const json& scene) {
 
 std::string why(const json& layers) {
     const sheer::Run run = compare_scene({{"type", "layers"}, {"layers", layers}});
-    EXPECT_EQ(run.results[0].status, "ok") << run.results[0].reason;
+    EXPECT_EQ(run.results[0].status, report::ResultStatus::ok) << run.results[0].reason;
     if (run.nothing_drawn.empty()) {
         EXPECT_TRUE(run.notes.empty());
         return "";
@@ -42,16 +42,16 @@ const json whole = {0, 0, 1, 1};
 
 TEST(NothingDrawn, HasACause) {
     EXPECT_EQ(why(json::array({layer(whole, 0.5, 1, true)})),
-              "Nothing transparent was drawn: the scene has no layers but opaque ones.");
+              "Nothing transparent was drawn: the scene has no layers other than opaque ones.");
     EXPECT_EQ(why(json::array({layer({2, 2, 3, 3}, 0.5, 0.5), layer({-1, 0, -0.5, 1}, 0.5, 0.5)})),
-              "Nothing transparent was drawn: all of it lies outside of the camera's view.");
+              "Nothing transparent was drawn: all of it is outside the camera's view.");
     EXPECT_EQ(why(json::array({layer(whole, 0.25, 1, true), layer(whole, 0.5, 0.5)})),
               "Nothing transparent was drawn: opaque geometry hides all of it.");
     EXPECT_EQ(why(json::array({layer(whole, 0.5, 0), layer(whole, 0.25, 0)})),
               "Nothing transparent was drawn: all of it has an alpha of 0.");
     // A hundredth of a pixel's width, between two centres.
     EXPECT_EQ(why(json::array({layer({0.5, 0.5, 0.5006, 0.5006}, 0.5, 0.5)})),
-              "Nothing transparent was drawn: it covers the centre of no pixel, or shows only its back.");
+              "Nothing transparent was drawn: it covers no pixel's centre, or only its back faces are in view.");
 }
 
 TEST(NothingDrawn, IsNotSaidWhereThereIsSomething) {

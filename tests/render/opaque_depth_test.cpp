@@ -1,5 +1,5 @@
 // What the marks of opaque fragments stop, and that the picture stays that of F2B.
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "tests/render/sample_count.h"
 
 namespace sheer::test::opaque_depth_test {
@@ -25,7 +25,7 @@ nlohmann::json full_layers(const std::vector<double>& alphas) {
     return layers_scene(layers);
 }
 
-/// Samples per pixel of a frame, where all pixels are alike.
+/// Samples per pixel of a frame whose pixels are all equal.
 std::int64_t samples_per_pixel(const nlohmann::json& scene, const nlohmann::json& method) {
     const auto context = make_context("egl");
     const Spec spec = make_spec(scene, nlohmann::json::array({method}), size_px);
@@ -57,7 +57,8 @@ TEST(OpaqueDepth, OpaqueBehindOpaqueIsStopped) {
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("two_pass")), 1 + composite + depth_copy);
 }
 
-/// With static marks each of the four is blended, three of them again; a wall of other alphas between changes nothing.
+/// With static marks each of the four is blended, three of them unnecessarily; other alphas between them change
+/// nothing.
 TEST(OpaqueDepth, StaticMarksBlendOpaqueBehindOpaqueAgain) {
     for (const std::string variant : {"shader_depth", "target_alpha"})
         for (const int bits : {16, 24, 32}) {
@@ -79,9 +80,9 @@ TEST(OpaqueDepth, FindingsCountWhatIsBlendedAgain) {
         stage.frame(*made);
         const Image before = stage.target().read();
         gl::FrameTimer timer(*context);
-        timer.begin_frame(false);
+        gl::FrameTimer::Frame frame = timer.frame(false);
         const nlohmann::json found = made->findings(timer);
-        timer.end_frame();
+        frame.end();
         stage.frame(*made);
         EXPECT_EQ(greatest_difference(before, stage.target().read()), 0);
         return found;
@@ -104,15 +105,15 @@ TEST(OpaqueDepth, MarksByAShaderInsteadOfAClear) {
     EXPECT_EQ(samples_per_pixel(scene, method), 2 + 5 + composite);
 }
 
-/// A merge is one sample where the pixel is open still, none where its depth or stencil is set. Six batches of one:
+/// A merge is one sample if the pixel is still open, none if its depth or stencil is set. Six batches of one:
 /// five merges, of which the first two find the pixel open.
 TEST(OpaqueDepth, MergesKeepThePixelClosed) {
     const nlohmann::json scene = full_layers({0.5, 0, 1, 0.5, 1, 0.5});
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("shader_depth", 1)), 2 + 2 + composite);
     // Batches of two: {0.5, 0}, {1, 0.5}, {1, 0.5}; the first merge finds it open.
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("shader_depth", 2)), 2 + 1 + composite);
-    // Marked from the target's alpha the other way round: a sample where it is closed, which the last three merges
-    // find.
+    // With marks from the target's alpha it is the other way round: a sample if the pixel is closed, as in the last
+    // three merges.
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("target_alpha", 1)), 2 + 3 + composite);
 }
 
@@ -124,8 +125,8 @@ TEST(OpaqueDepth, OnlyTargetAlphaSeesAccumulatedOpacity) {
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("two_pass", 1)), 10 + composite + depth_copy);
 }
 
-/// 16 bits tell 65,535 triangles apart, so 40,000 rectangles of two take a second batch; 24 bits take one. No fragment
-/// is opaque, so that the one merge counts once per pixel.
+/// 16 bits distinguish 65,535 triangles, so 40,000 rectangles of two need a second batch; 24 bits need one. No fragment
+/// is opaque, so the one merge counts once per pixel.
 TEST(OpaqueDepth, DepthBitsBoundTheBatch) {
     const auto context = make_context("egl");
     const nlohmann::json quads = {{"type", "quads"}, {"count", 40000}, {"shading", "constant"}};
@@ -180,8 +181,8 @@ TEST(OpaqueDepth, PictureIsThatOfF2b) {
         }
 }
 
-/// By hand, in one pixel: 0.5 of red before an opaque green fragment, before white that nothing may show. The opaque
-/// object between green and white changes nothing; before green it hides it.
+/// Worked out by hand, in one pixel: 0.5 of red in front of an opaque green fragment, in front of white, which must be
+/// hidden. An opaque object between green and white changes nothing; in front of green it hides it.
 TEST(OpaqueDepth, OpaqueGeometryByHand) {
     const auto context = make_context("egl");
     for (const std::string& variant : variants())

@@ -1,10 +1,10 @@
-// The two references against each other, and against themselves under hardship.
+// The two references compared with each other, and with themselves under difficult conditions.
 #include <gmock/gmock.h>
 
-#include "renderer/errors.h"
-#include "renderer/frame/overdraw.h"
-#include "renderer/scene/random.h"
-#include "tests/render/compositor.h"
+#include "renderer/core/errors.h"
+#include "renderer/core/random.h"
+#include "renderer/passes/overdraw.h"
+#include "tests/render/formulas.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::references_test {
@@ -36,15 +36,15 @@ double greatest_difference_to(const Compositor& compositor, const Image& image) 
     double greatest = 0;
     for (int y = 0; y < image.height_px; ++y)
         for (int x = 0; x < image.width_px; ++x) {
-            const Compositor::Color color = compositor.pixel(x, y, Compositor::Order::by_depth);
+            const Color color = compositor.pixel(x, y, over_by_depth);
             for (std::size_t i = 0; i < 3; ++i)
                 greatest = std::max(greatest, std::abs(color[i] - double{image.pixel(x, y)[i]}));
         }
     return greatest;
 }
 
-/// 60 rectangles, some opaque, all of them over each other in the middle: three programs that share no code but the
-/// scene's, and the compositor of the tests, which shares nothing.
+/// 60 rectangles, some opaque, all overlapping in the middle: three programs that share only the scene's code, and the
+/// compositor of the tests, which shares nothing.
 TEST(References, AgreeWithEachOtherAndWithDoublePrecision) {
     constexpr int size_px = 32;
     Random random(5);
@@ -73,7 +73,7 @@ TEST(References, AgreeWithEachOtherAndWithDoublePrecision) {
     EXPECT_GT(greatest_difference_to(Compositor(spec.scene, size_px, {0.3, 0.4, 0.6}), pictures[0]), 0.05);
 }
 
-/// The context's functions, but for the read-back of how many fragments the lists took, which is one too many.
+/// The context's functions, but the count of fragments in the lists is read back as one too many.
 class OneFragmentMore {
   public:
     explicit OneFragmentMore(const gl::Functions& real) : m_functions(real) {
@@ -90,7 +90,7 @@ class OneFragmentMore {
     gl::Functions m_functions;
 };
 
-/// A fragment that was not counted has no room in the lists: there is no picture rather than one without it.
+/// A fragment that was not counted has no room in the lists: there is no picture, rather than one without it.
 TEST(References, AFragmentThatWasNotCountedEndsIt) {
     const auto context = make_context("egl");
     const Spec spec = make_spec(quads(5), {{{"id", "exact"}, {"form", "lists"}}}, 16, "rgba32f");
@@ -114,9 +114,9 @@ TEST(References, ListsInTilesGiveTheSamePicture) {
                                 64, "rgba32f");
     Stage stage(*context, spec, PixelFormat::rgba32f);
     gl::FrameTimer timer(*context);
-    timer.begin_frame(false);
+    gl::FrameTimer::Frame frame = timer.frame(false);
     const PixelCounts overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
-    timer.end_frame();
+    frame.end();
     ASSERT_GT(overdraw.total(), 374490u);
     const auto small = stage.make(spec.methods[0]);
     stage.frame(*small);
@@ -148,8 +148,8 @@ TEST(References, LongListsAreSorted) {
     EXPECT_LE(greatest_difference(stage.picture(spec.methods[0]), stage.picture(spec.methods[1])), 300 * 1e-7);
 }
 
-/// Four layers at one depth: none may be lost, and the later submitted counts as nearer, so blending in submission
-/// order is the answer.
+/// Four layers at one depth: none may be lost, and the one submitted later counts as nearer, so blending in submission
+/// order is correct.
 TEST(References, EqualDepthsKeepTheirFragments) {
     const auto context = make_context("egl");
     nlohmann::json layers = nlohmann::json::array();
@@ -181,9 +181,9 @@ TEST(Overdraw, CountsVisibleFragments) {
     const Spec spec = make_spec(scene, {"b2f"}, 4);
     Stage stage(*context, spec, PixelFormat::rgba8);
     gl::FrameTimer timer(*context);
-    timer.begin_frame(false);
+    gl::FrameTimer::Frame frame = timer.frame(false);
     const PixelCounts overdraw = count_overdraw(context->gl(), stage.scene(), stage.target(), timer);
-    timer.end_frame();
+    frame.end();
     const std::vector<std::uint32_t> expected = {2, 2, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     EXPECT_EQ(overdraw.counts, expected);
     EXPECT_EQ(overdraw.total(), 8u);

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
 #include "renderer/spec/spec.h"
 
 namespace sheer::test {
 
-/// The three ways to a context. GLFW needs a display; the runner gives one (Xvfb).
+/// The three kinds of context. GLFW needs a display, which the runner provides (Xvfb).
 inline std::vector<std::string> contexts() {
     std::vector<std::string> all = {"egl", "osmesa"};
     if (std::getenv("DISPLAY") != nullptr) all.emplace_back("glfw");
@@ -35,7 +35,7 @@ class Stage {
           m_scene(context.gl(), build_geometry(spec.scene, spec.image, *assets), spec.scene),
           m_target(context.gl(), spec.image, format) {}
 
-    /// With other geometry than the spec's.
+    /// With geometry other than the spec's.
     Stage(gl::Context& context, const Spec& spec, PixelFormat format, const Geometry& geometry)
         : m_context(context),
           m_timer(context),
@@ -45,16 +45,16 @@ class Stage {
     const Scene& scene() const { return m_scene; }
     const Target& target() const { return m_target; }
 
-    /// `functions` may stand in for the context's own, to count calls.
+    /// `functions` may replace the context's own, to count calls.
     std::unique_ptr<Method> make(const MethodSpec& method, const gl::Functions* functions = nullptr) {
-        return find_method(method.id)->make(
-            {m_context, functions ? *functions : m_context.gl(), m_scene, m_target, method.parameters});
+        return find_method(method.id)->make({m_context, functions ? *functions : m_context.gl(), m_scene, m_target},
+                                            method.parameters);
     }
 
     gl::FrameSample frame(Method& method, bool timed = false) {
-        m_timer.begin_frame(timed);
+        gl::FrameTimer::Frame frame = m_timer.frame(timed);
         method.render(m_timer);
-        return m_timer.end_frame();
+        return frame.end();
     }
 
     Image picture(const MethodSpec& spec) {

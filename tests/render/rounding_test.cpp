@@ -1,10 +1,11 @@
-// The references are rounded once, and as the methods' target is, so that what is left of a difference is the method's.
+// The references are rounded once, in the same way as the methods' target, so that any difference comes from the
+// method.
 #include <cmath>
 
-#include "renderer/compare.h"
-#include "renderer/frame/float_opaque.h"
-#include "renderer/scene/random.h"
-#include "tests/render/compositor.h"
+#include "renderer/compare/compare.h"
+#include "renderer/core/random.h"
+#include "renderer/passes/float_opaque.h"
+#include "tests/render/formulas.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::rounding_test {
@@ -62,7 +63,7 @@ TEST(Rounding, ExactIsIdenticalToTheReferenceOverEveryBackground) {
         }
 }
 
-/// Where nothing transparent is, every method has the opaque picture, and so has the reference.
+/// Where nothing is transparent, every method shows the opaque picture, and so does the reference.
 TEST(Rounding, ASkyAloneIsNoDifference) {
     const json scene = {
         {"type", "layers"},
@@ -75,7 +76,8 @@ TEST(Rounding, ASkyAloneIsNoDifference) {
         }
 }
 
-/// One rounding: half a level, of however many layers. The last decides, so that half a level and float noise remain.
+/// One rounding: half a level, whatever the number of layers. Only the last one counts, so half a level and float noise
+/// remain.
 TEST(Rounding, IsHalfALevelOfAnyNumberOfLayers) {
     for (const std::size_t count : {1, 8, 64}) {
         Random random(count);
@@ -102,16 +104,15 @@ TEST(Rounding, IsHalfALevelOfAnyNumberOfLayers) {
                 for (int y = 0; y < size_px; ++y)
                     for (int x = 0; x < size_px; ++x)
                         for (int c = 0; c < 3; ++c)
-                            greatest =
-                                std::max(greatest, std::abs(compositor.pixel(x, y, Compositor::Order::by_depth)[c] -
-                                                            double{image.pixel(x, y)[c]}));
+                            greatest = std::max(greatest, std::abs(compositor.pixel(x, y, over_by_depth)[c] -
+                                                                   double{image.pixel(x, y)[c]}));
                 EXPECT_LE(greatest * 255, 0.501) << method.label << count << ' ' << grey;
             }
         }
     }
 }
 
-/// The row of the format: what rounding the reference costs and nothing else. 0.7 is 178.5 levels, and 0.3 is 76.5.
+/// The row of the format: only the cost of rounding the reference. 0.7 is 178.5 levels, and 0.3 is 76.5.
 TEST(Rounding, TellsWhatTheFormatAloneCosts) {
     const json scene = {{"type", "layers"}, {"layers", {layer(0.5, 1, 1, {0, 0, 0.5, 1})}}};
     const sheer::Run eight = run_of(scene, {"b2f"}, "rgba8", {0.7, 0.7, 0.7});
@@ -119,7 +120,7 @@ TEST(Rounding, TellsWhatTheFormatAloneCosts) {
     const sheer::Run full = run_of(scene, {"b2f"}, "rgba32f", {0.7, 0.7, 0.7});
     EXPECT_NEAR(eight.format_cost->values["linear"]["max_abs"].get<double>(), 0.5 / 255, 1e-6);
     EXPECT_NEAR(eight.format_cost->values["linear"]["rmse"].get<double>(), std::sqrt(0.5) * 0.5 / 255, 1e-6);
-    // The half floats beside 0.7 are 1433 and 1434 / 2048; which one it becomes is the device's to say.
+    // The half floats next to 0.7 are 1433 and 1434 / 2048; the device decides which one it becomes.
     const double of_half = half.format_cost->values["linear"]["max_abs"];
     EXPECT_NEAR(of_half, of_half < 0.00025 ? 1434.0 / 2048 - 0.7 : 0.7 - 1433.0 / 2048, 1e-6);
     EXPECT_EQ(full.format_cost->values["linear"]["max_abs"], 0.0);

@@ -3,8 +3,8 @@
 
 namespace sheer::test {
 
-/// How many fragments of a frame pass every test and discard, in all passes together. The frame is the second one, so
-/// that what only the first does is not counted.
+/// How many fragments of a frame pass every test and discard, in all passes together. The second frame is counted,
+/// because the first one may do more.
 inline std::int64_t samples_of_frame(gl::Context& context, Stage& stage, Method& method) {
     const gl::Functions& gl = context.gl();
     const gl::Query query = gl::make_query(gl, "samples", GL_SAMPLES_PASSED);

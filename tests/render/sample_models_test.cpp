@@ -1,15 +1,15 @@
-// Models of the kinds that the glTF sample collections have, written by the tests: what is seen where.
+// Models like those in the glTF sample collections, written by the tests: what must be visible where.
 #include "tests/unit/sample_models.h"
 
 #include "renderer/assets/read_model.h"
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::sample_models_test {
 
 namespace {
 
-/// Reads a file that is in memory, whatever the name.
+/// Reads a file in memory, whatever the name.
 class ModelBytes : public AssetReader {
   public:
     explicit ModelBytes(std::string bytes) : m_bytes(std::move(bytes)) {}
@@ -69,7 +69,7 @@ TEST_P(SampleModels, ShowWhatIsExpected) {
 INSTANTIATE_TEST_SUITE_P(All, SampleModels, testing::ValuesIn(sample_models()),
                          [](const testing::TestParamInfo<SampleModel>& row) { return row.param.name; });
 
-/// With a few numbers of its JSON or bytes of its data changed, so that much of it can still be read.
+/// Changes a few numbers of its JSON or bytes of its data, so that much of it can still be read.
 std::string changed(std::string bytes, Random& random) {
     const std::size_t data = bytes.rfind(std::string_view("BIN\0", 4)) + 4;
     for (std::uint64_t changes = 1 + random.below(3); changes > 0;) {
@@ -82,7 +82,7 @@ std::string changed(std::string bytes, Random& random) {
     return bytes;
 }
 
-/// The model is refused, or drawn without an error of the device and in colours; and not all of them are refused.
+/// The model is refused, or drawn in finite colors without a device error; and not all of them are refused.
 using MutatedModels = SampleModels;
 TEST_P(MutatedModels, AreRefusedOrDrawn) {
     Random random(std::hash<std::string>()(GetParam().name));

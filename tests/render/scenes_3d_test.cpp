@@ -1,4 +1,4 @@
-// The scenes with a camera: where points come to lie, what is hidden, and that every method draws them.
+// The scenes with a camera: where points appear, what is hidden, and that every method draws them.
 #include "renderer/scene/camera.h"
 #include "tests/render/render_test.h"
 
@@ -34,7 +34,7 @@ class Hand {
         m_image.background = {0, 0, 0};
     }
 
-    /// A square of 0.5 that looks along z.
+    /// A square of 0.5 that faces along z.
     void add_square(const glm::vec3& centre, const glm::vec4& tint, bool opaque, const glm::vec2& uv) {
         const auto primitive = static_cast<std::uint32_t>(m_geometry.primitives.size());
         const auto first = static_cast<std::uint32_t>(m_geometry.vertices.size());
@@ -44,17 +44,34 @@ class Hand {
         for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) m_geometry.indices.push_back(first + i);
     }
 
+    /// sheer_distance() of the fragments that are drawn last, in every channel; 0 where there is none.
+    Image distances(const std::optional<Camera>& camera) {
+        if (camera) look_through(m_geometry, *camera, 1);
+        const Scene scene(m_context->gl(), m_geometry, {{"shading", "constant"}, {"texture", {{"size", 16}}}});
+        const gl::Program program = scene.make_program(
+            "distance",
+            "out vec4 o_color;\nvoid main() {\n    begin_fragment();\n    o_color = vec4(sheer_distance());\n}\n");
+        const Target target(m_context->gl(), m_image, PixelFormat::rgba32f);
+        gl::FrameTimer timer(*m_context);
+        gl::FrameTimer::Frame frame = timer.frame(false);
+        OpaquePass(m_context->gl(), scene, target).draw(timer);
+        Pass pass(m_context->gl(), target);
+        scene.draw_transparent(program, Order::submission);
+        frame.end();
+        return target.read();
+    }
+
     Image picture(const Camera& camera, const std::string& shading = "constant") {
         look_through(m_geometry, camera, 1);
         const Scene scene(m_context->gl(), m_geometry,
                           {{"shading", shading}, {"texture", {{"image", "leaf"}, {"size", 16}}}});
         const Target target(m_context->gl(), m_image, PixelFormat::rgba32f);
-        const nlohmann::json no_parameters = nlohmann::json::object();
-        const auto method = find_method("b2f")->make({*m_context, m_context->gl(), scene, target, no_parameters});
+        const auto method =
+            find_method("b2f")->make({*m_context, m_context->gl(), scene, target}, nlohmann::json::object());
         gl::FrameTimer timer(*m_context);
-        timer.begin_frame(false);
+        gl::FrameTimer::Frame frame = timer.frame(false);
         method->render(timer);
-        timer.end_frame();
+        frame.end();
         return target.read();
     }
 
@@ -80,7 +97,25 @@ TEST(Camera, PointsLieWhereTheyBelong) {
         }
 }
 
-/// The nearer of two opaque squares is seen, in whichever order they come; one behind the eye is not.
+/// Along the camera's axis, so that a square that faces the camera is as far away at its corners as in its middle.
+TEST(Camera, DistancesAreThoseAlongItsAxis) {
+    Hand hand;
+    hand.add_square({0, 0, 1}, {1, 1, 1, 0.5f}, false, {0, 0});
+    hand.add_square({2, 1, 0}, {1, 1, 1, 0.5f}, false, {0, 0});
+    const Image image = hand.distances(right_angle);
+    EXPECT_NEAR(image.pixel(32, 32)[0], 3, 1e-5);
+    for (const auto& [x, y] : {std::pair{46, 22}, {49, 25}})
+        EXPECT_NEAR(image.pixel(x, y)[0], 4, 1e-5) << x << ' ' << y;
+    EXPECT_EQ(image.pixel(0, 0)[0], 0);
+}
+
+TEST(Camera, WithoutOneTheDistanceIsTheDepth) {
+    Hand hand;
+    hand.add_square({0, 0, 0.375f}, {1, 1, 1, 0.5f}, false, {0, 0});
+    EXPECT_NEAR(hand.distances(std::nullopt).pixel(32, 32)[0], 0.375, 1e-6);
+}
+
+/// The nearer of two opaque squares is visible, whatever their order; one behind the eye is not.
 TEST(Camera, NearerOpaqueSquaresHide) {
     for (const bool near_first : {true, false}) {
         Hand hand;
@@ -106,7 +141,7 @@ TEST(Camera, TransparentSquaresAreDrawnFarToNear) {
     }
 }
 
-/// Leaves are for planes of leaves: what says it has no texture keeps its colour under any shading.
+/// An untextured surface keeps its color under any shading.
 TEST(Opaque, UntexturedIsTheTintUnderAnyShading) {
     for (const std::string shading : {"constant", "1-texture", "4x4-textures-math"}) {
         Hand hand;
@@ -151,7 +186,7 @@ TEST_P(Scenes3d, AreDrawnByEveryMethod) {
                 }
             EXPECT_GT(drawn, size_px * size_px / 20);
         } catch (const Unsupported&) {
-            // A device may lack what a method needs; the report says so.
+            // A device may lack something that a method needs; the report says so.
         }
     }
 }
@@ -187,7 +222,7 @@ TEST(Particles, SortedPrimitivesAreExact) {
     EXPECT_GT(greatest_difference(lists, stage.picture(spec.methods[3])), 0.05);
 }
 
-/// No order of whole planes is right where they cut each other.
+/// No order of whole planes is correct where they intersect.
 TEST(Foliage, IntersectingPlanesCannotBeSorted) {
     const auto context = make_context("egl");
     const Spec spec = make_spec(foliage(100), {"exact", "b2f"}, size_px, "rgba32f");
@@ -195,7 +230,7 @@ TEST(Foliage, IntersectingPlanesCannotBeSorted) {
     EXPECT_GT(greatest_difference(stage.picture(spec.methods[0]), stage.picture(spec.methods[1])), 0.05);
 }
 
-/// Seen from below the ground nothing but the ground is there, however much grows or burns on it.
+/// From below, only the ground is visible, whatever grows or burns on it.
 TEST(Scenes3dOpaque, Hides) {
     const auto context = make_context("egl");
     for (nlohmann::json scene : {particles(300), foliage(60)}) {

@@ -1,7 +1,7 @@
-// Screen-space alpha masking against layers worked out by hand, one parameter after the other.
+// Screen-space alpha masking compared with layers worked out by hand, one parameter after the other.
 #include <cmath>
 
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::ssam_test {
@@ -65,7 +65,7 @@ TEST_F(Ssam, EachParameter) {
         {{{"mask", "max"}, {"mask_lerp", 1}, {"squared", false}}, near_color, 0.6},
         {{{"mask", "additive"}, {"mask_lerp", 0}, {"squared", false}}, near_color, 0.9},
         {{{"alpha_reference", 0}}, near_color, 0.855 * 0.855},
-        // Too faint for the colour pass, the near layer still counts in the mask.
+        // Too faint for the color pass, the near layer still counts in the mask.
         {{{"alpha_reference", 0.5}}, far_color, 0.855 * 0.855},
         {{{"alpha_reference", 0.7}}, {0, 0, 0}, 0.855 * 0.855},
         {{{"alpha_reference", 0.7}, {"clear_color", clear_color}}, clear_color, 0.855 * 0.855},
@@ -79,7 +79,7 @@ TEST_F(Ssam, EachParameter) {
     }
 }
 
-/// 0.3 + 0.6 + 0.7 saturates at 1, in float targets too, and in whatever order: with the maximum 0.7 the mix is 0.955.
+/// 0.3 + 0.6 + 0.7 saturates at 1, in float targets too, and in any order: with the maximum 0.7 the mix is 0.955.
 TEST_F(Ssam, AdditiveMaskSaturates) {
     json layers = two_layers();
     layers.push_back(layer(0.4, {1, 1, 1}, 0.7));
@@ -96,8 +96,8 @@ TEST_F(Ssam, AlphaZeroAndOne) {
     expect_mix(picture(json::array({layer(0.5, near_color, 1)}), ssam()), below, near_color, 1, 1e-6, "1");
 }
 
-/// What theory predicts for glass: a red layer of 0.5 in front of an opaque green one is 0.75 of green, since the mask
-/// is squared, and the far of two layers gives no colour at all.
+/// The theory for glass: a red layer of 0.5 in front of an opaque green one is 0.75 of green, since the mask is
+/// squared, and the farther of two layers contributes no color at all.
 TEST_F(Ssam, OnlyTheNearestColorShows) {
     const json glass = {layer(0.9, {0, 1, 0}, 1, true), layer(0.3, {1, 0, 0}, 0.5)};
     expect_mix(picture(glass, ssam()), {0, 1, 0}, {1, 0, 0}, 0.25, 1e-6, "one");
@@ -106,7 +106,7 @@ TEST_F(Ssam, OnlyTheNearestColorShows) {
     EXPECT_EQ(picture(covered, ssam()).pixel(1, 1)[2], 0);
 }
 
-/// Opaque geometry hides from mask and colour alike what is behind it, and nothing else.
+/// In both mask and color, opaque geometry hides exactly what is behind it.
 TEST_F(Ssam, OpaqueInFrontBehindBetween) {
     for (const int samples : {1, 2}) {
         const json method = ssam({{"opaque_msaa", samples}});
@@ -122,7 +122,7 @@ TEST_F(Ssam, OpaqueInFrontBehindBetween) {
 }
 
 /// An opaque edge at 3.45 pixels covers half the samples of pixel 3 (at 2 and at 4 per pixel) and not its middle. Its
-/// colour is the mean; its depth the nearest, which hides the foliage behind it from the whole pixel.
+/// color is the mean; its depth the nearest, which hides the foliage behind it from the whole pixel.
 TEST_F(Ssam, OpaqueSamplesAreResolved) {
     json layers = {layer(0.3, {1, 1, 1}, 1, true), layer(0.5, {0, 0, 0}, 1)};
     layers[0]["rect"] = {0, 0, 3.45 / 8, 1};
@@ -136,7 +136,7 @@ TEST_F(Ssam, OpaqueSamplesAreResolved) {
     EXPECT_EQ(red(2, 4), 0);
 }
 
-/// Distinct depths: every order of submission gives the same picture; in 8 bits to the last bit.
+/// With distinct depths, every order of submission gives the same picture; in 8 bits, to the last bit.
 TEST_F(Ssam, SubmissionDoesNotMatter) {
     json layers = two_layers();
     layers.push_back(layer(0.4, {0.4, 0.9, 0.9}, 0.28));
@@ -154,8 +154,8 @@ TEST_F(Ssam, SubmissionDoesNotMatter) {
     EXPECT_EQ(orders, 24);
 }
 
-/// The colour pass leaves its depths in the target; the next frame must start from the opaque ones.
-/// Planes that cut each other, in another order of submission: the same picture to the last bit.
+/// The color pass leaves its depths in the target; the next frame must start from the opaque ones.
+/// Intersecting planes in another order of submission: the same picture to the last bit.
 TEST_F(Ssam, FoliageDoesNotDependOnSubmission) {
     const Spec spec =
         make_spec({{"type", "foliage"}, {"trees", 2}, {"planes_per_tree", 40}, {"texture", {{"size", 64}}}},

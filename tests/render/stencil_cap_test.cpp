@@ -1,9 +1,9 @@
-// The cap, the guess from the previous frame and how it converges, against values worked out by hand.
+// The cap, the guess from the previous frame and its convergence, compared with values worked out by hand.
 #include <cmath>
 
-#include "renderer/compare.h"
-#include "renderer/frame/stencil_cap.h"
-#include "renderer/scene/random.h"
+#include "renderer/compare/compare.h"
+#include "renderer/core/random.h"
+#include "renderer/methods/shared/stencil_cap.h"
 #include "tests/render/sample_count.h"
 
 namespace sheer::test::stencil_cap_test {
@@ -79,7 +79,7 @@ std::array<double, 3> capped_pixel(const nlohmann::json& scene, int x, int y, in
     return color;
 }
 
-/// The first frame guesses nothing. On a grid of 4 pixels the coarse depth decides rightly, so zcull changes nothing.
+/// The first frame guesses nothing. On a grid of 4 pixels the coarse depth is correct, so zcull changes nothing.
 TEST_F(StencilCapTest, FirstFrameIsTheNearestLayers) {
     for (const std::uint64_t seed : {1, 2, 3})
         for (const int layers : {1, 3, 30})
@@ -102,8 +102,8 @@ nlohmann::json half_white_layers(int count) {
     return layers_scene(layers);
 }
 
-/// Depth copy, 3 of 10 layers, fill and composite. With zcull one depth for each of the 4 x 4 coarse pixels, and two
-/// triangles for each that cover the picture; and all layers once more to be counted.
+/// Depth copy, 3 of 10 layers, fill and composite. With zcull also one depth for each of the 4 x 4 coarse pixels, two
+/// triangles for each, which cover the picture, and all layers once more for counting.
 TEST_F(StencilCapTest, DrawsAsManyLayersAsTheCap) {
     EXPECT_EQ(samples(half_white_layers(10), cap(3, 2)), pixels * (1 + 3 + 1 + 1));
     EXPECT_EQ(samples(half_white_layers(10), cap(3, 1)), pixels * (1 + 3 + 1));
@@ -113,8 +113,8 @@ TEST_F(StencilCapTest, DrawsAsManyLayersAsTheCap) {
     EXPECT_EQ(samples(half_white_layers(2), cap(3, 2, 0, true)), pixels * (1 + 2 + 1) + pixels * 2);
 }
 
-/// Even picture, two layers of alpha 0.5 let through: A = 0.75 c, T = 0.25. P(1) = A + T D, P(n) = A + T P(n - 1), so
-/// P(n) = c (1 - T^n) + T^n D, which goes to c; the change goes down by T a frame.
+/// Uniform picture, two layers of alpha 0.5 let through: A = 0.75 c, T = 0.25. P(1) = A + T D, P(n) = A + T P(n - 1),
+/// so P(n) = c (1 - T^n) + T^n D, which tends to c; the change shrinks by T per frame.
 TEST_F(StencilCapTest, ConvergesAsComputed) {
     const std::array color = {1.0, 0.5, 0.0};
     for (const int frames : {1, 2, 3, 30}) {
@@ -125,11 +125,12 @@ TEST_F(StencilCapTest, ConvergesAsComputed) {
     }
     const Spec spec = make_spec(half_white_layers(6), nlohmann::json::array({cap(2, 6)}), size_px, "rgba32f");
     const Stage stage(*m_context, spec, PixelFormat::rgba32f);
-    StencilCap method({*m_context, m_context->gl(), stage.scene(), stage.target(), spec.methods[0].parameters});
+    StencilCap method({*m_context, m_context->gl(), stage.scene(), stage.target()},
+                      StencilCapParameters::table().read(spec.methods[0].parameters));
     gl::FrameTimer timer(*m_context);
-    timer.begin_frame(false);
+    gl::FrameTimer::Frame frame = timer.frame(false);
     const std::vector<double> changes = method.change_per_frame(timer);
-    timer.end_frame();
+    frame.end();
     ASSERT_EQ(changes.size(), 5u);
     for (int i = 0; i < 5; ++i) EXPECT_NEAR(changes[i], 0.8 * 0.75 * std::pow(0.25, i + 1), 1e-6) << i;  // red: 1 - 0.2
 }
@@ -150,9 +151,9 @@ TEST_F(StencilCapTest, TheRunHasTheChangePerFrame) {
         EXPECT_NEAR(of_cap["change_per_frame"][i].get<double>(), 0.8 * 0.75 * std::pow(0.25, i + 1), 1e-6) << i;
 }
 
-/// A clear layer behind is what the cap hides. Black at 0.5 before white up to column 3 and black from there: P(1) is
-/// 0.5 and 0. At half the size the columns are 0.5, (0.5 + 0) / 2, 0, 0, ...; drawn back at full size between their
-/// middles they weigh 3/4 and 1/4.
+/// The cap hides a clear layer at the back. Black at 0.5 in front of white up to column 3 and of black from there: P(1)
+/// is 0.5 and 0. At half the size the columns are 0.5, (0.5 + 0) / 2, 0, 0, ...; drawn at full size, between their
+/// middles, they have the weights 3/4 and 1/4.
 TEST_F(StencilCapTest, FillsWithTheHalvedPreviousFrame) {
     const nlohmann::json layers = {
         {{"rect", {0, 0, 1, 1}}, {"depth", 0.5}, {"color", {0, 0, 0}}, {"alpha", 0.5}},
@@ -174,8 +175,8 @@ TEST_F(StencilCapTest, NothingIsGuessedUnderTheCap) {
         EXPECT_NEAR(image.pixel(4, 4)[i], 0.75 * (std::array{1.0, 0.5, 0.0}[i]) + 0.25 * background[i], 1e-6);
 }
 
-/// Nor where the cap is just reached, and nothing more is there: whether the alpha test counts, or the stencil alone,
-/// or a pass of its own; nor where opaque geometry hides all that comes after, or the alpha test drops it.
+/// Nor if the cap is just reached and there is nothing more, whether the alpha test, the stencil alone or a separate
+/// pass counts; nor if opaque geometry hides all that follows, or the alpha test drops it.
 TEST_F(StencilCapTest, NothingIsGuessedWhereNothingIsHidden) {
     const nlohmann::json two = {full_layer(0.2, {1, 0.5, 0}, 0.5), full_layer(0.3, {1, 0.5, 0}, 0.5)};
     const auto with = [&](std::vector<nlohmann::json> more) {
@@ -197,7 +198,7 @@ TEST_F(StencilCapTest, NothingIsGuessedWhereNothingIsHidden) {
             expect(with({full_layer(0.8, wall, 1, true)}), wall, "just full before a wall");
             expect(with({full_layer(0.5, wall, 1, true), full_layer(0.6, {1, 1, 1}, 0.5)}), wall, "hidden by the wall");
             if (min_alpha > 0) expect(with({full_layer(0.6, {1, 1, 1}, 0.05)}), background, "too faint");
-            // One layer more, and the guess goes to what the nearest two look like by themselves.
+            // With one more layer, the guess tends to the picture of the nearest two alone.
             const Image guessed = picture(with({full_layer(0.6, {1, 1, 1}, 0.5)}), cap(2, 30, min_alpha, zcull));
             for (int i = 0; i < 3; ++i) EXPECT_NEAR(guessed.pixel(4, 4)[i], color[i], 1e-6) << zcull << min_alpha;
         }
@@ -213,7 +214,7 @@ TEST_F(StencilCapTest, AHigherCapThanTheStencilCountsIsRefused) {
                     1 - left + left * background[0], 1e-5);
 }
 
-/// Two faint layers before two of alpha 0.5, with a cap of two: they use it up, unless the alpha test drops them.
+/// Two faint layers in front of two of alpha 0.5, with a cap of two: they use it up, unless the alpha test drops them.
 TEST_F(StencilCapTest, FaintFragmentsUseUpNoLayer) {
     const nlohmann::json layers = {full_layer(0.1, {0, 0, 0}, 0.01), full_layer(0.2, {0, 0, 0}, 0.01),
                                    full_layer(0.3, {1, 1, 1}, 0.5), full_layer(0.4, {1, 1, 1}, 0.5)};
@@ -227,7 +228,7 @@ TEST_F(StencilCapTest, FaintFragmentsUseUpNoLayer) {
     }
 }
 
-/// Where the middle of a 4 x 4 block is full and a pixel of it is not, zcull loses what that pixel has behind.
+/// If the middle of a 4 x 4 block is full but one of its pixels is not, zcull loses what is behind in that pixel.
 TEST_F(StencilCapTest, ZcullDecidesForWholeBlocks) {
     const nlohmann::json layers = {
         {{"rect", {1.0 / size_px, 0, 4.0 / size_px, 4.0 / size_px}}, {"depth", 0.3}, {"color", {1, 0, 0}}},
@@ -246,7 +247,7 @@ TEST_F(StencilCapTest, ZcullDecidesForWholeBlocks) {
     }
 }
 
-/// Rendering again gives the last frame again, and a second method starts anew.
+/// Rendering again gives the last frame again, and a second method starts from the beginning.
 TEST_F(StencilCapTest, PictureIsThatOfTheLastFrame) {
     const Spec spec = make_spec(half_white_layers(6), nlohmann::json::array({cap(1, 3)}), size_px, "rgba32f");
     Stage stage(*m_context, spec, PixelFormat::rgba32f);

@@ -1,4 +1,4 @@
-// Textures that are files: which of the four shows what.
+// Textures from files: which of the four shows what.
 #include <set>
 #include <sstream>
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Plain pictures that are called by their colour: "0.25 0.5 1". Counts how often each is asked for.
+/// Plain pictures that are named by their color: "0.25 0.5 1". Counts how often each is requested.
 class PlainPictures : public NoAssets {
   public:
     explicit PlainPictures(std::multiset<std::string>& asked) : m_asked(asked) {}
@@ -56,7 +56,7 @@ TEST(FourTextures, AreAPictureEach) {
         for (int channel = 0; channel < 3; ++channel)
             EXPECT_EQ(image.pixel(8 + 16 * (quarter % 2), 8 + 16 * (quarter / 2))[channel], expected[quarter][channel])
                 << quarter;
-    // The third is the third of the leaves.
+    // The third picture is the third variant of the leaves.
     const Spec leaves = make_spec(scene_with("leaf"), {"b2f"});
     Stage painted(*context, leaves, PixelFormat::rgba8);
     const Image leaf = painted.picture(leaves.methods[0]);

@@ -1,4 +1,4 @@
-// The volume scene against what a ray through slices gives, worked out by hand or in double precision on the CPU.
+// The volume scene compared with a ray through slices, worked out by hand or in double precision on the CPU.
 #include "renderer/scene/volume.h"
 
 #include "tests/render/render_test.h"
@@ -47,8 +47,8 @@ Image picture_of(const nlohmann::json& scene, const Volume& volume, const std::s
     return stage.picture(spec.methods[0]);
 }
 
-/// Every slice adds the same opacity a, so n of them let (1 - a)^n through. How opaque the whole is does not depend on
-/// how many slices it is cut into: the transfer function's alpha is that of 1/256 of the volume.
+/// Every slice adds the same opacity a, so n of them let (1 - a)^n through. The opacity of the whole does not depend on
+/// the number of slices: the transfer function's alpha is that of 1/256 of the volume.
 TEST(VolumeOpacity, OfAConstantVolumeIsThatOfItsDepthWhateverTheSlices) {
     const std::array<double, 3> color{0.9, 0.5, 0.1};
     const double alpha = 0.03, density = 0.5;
@@ -73,7 +73,7 @@ TEST(VolumeSlices, CoverWhatTheCubeCovers) {
     std::array<bool, slices + 1> seen{};
     for (int y = 0; y < size_px; ++y)
         for (int x = 0; x < size_px; ++x) {
-            // Of a right angle half the picture is as wide as it is far.
+            // With a right angle, half the picture is as wide as it is far away.
             const double out = std::max(std::abs(x - middle_px), std::abs(y - middle_px)) * 2.0 / size_px;
             int covered = 0;
             for (int i = 0; i < slices; ++i) covered += out < 1 / (4 + (i + 0.5) * 2 / slices);
@@ -97,7 +97,7 @@ double value_along(const std::vector<double>& voxels, double at) {
     return mix(voxels[first], voxels[first + 1], position - static_cast<double>(first));
 }
 
-/// The last of the voxels along z is nearest; red grows into blue with the value, and clear into opaque.
+/// The last voxel along z is nearest; with the value, red turns into blue and clear into opaque.
 TEST(VolumeRay, IsThatOfTheCpu) {
     constexpr int slices = 40;
     const double density = 1.5;
@@ -134,7 +134,7 @@ TEST(VolumeAxes, AreThoseOfTheScene) {
     EXPECT_NEAR(along_y.pixel(middle_px, middle_px + 2)[0], background[0], 1e-6);
 }
 
-/// A volume of 2 x 1 x 4 voxels that are cubes has a box of half and a quarter the sides of its length.
+/// A volume of 2 x 1 x 4 cubic voxels has a box whose other sides are half and a quarter of its length.
 TEST(VolumeSpacing, ShapesTheBox) {
     Volume volume = volume_of({2, 2, 2}, std::vector<std::uint8_t>(8, 255));
     volume.spacing = {2, 1, 4};
@@ -148,14 +148,14 @@ TEST(VolumeSpacing, ShapesTheBox) {
         }
 }
 
-/// Where nothing changes there is no boundary to light: the shader then gives 0.8 of the colour.
-TEST(VolumeLight, ChangesColoursNotOpacity) {
+/// Where values do not change there is no boundary to light: the shader then gives 0.8 of the color.
+TEST(VolumeLight, ChangesColorsNotOpacity) {
     nlohmann::json scene = scene_with(16, 1, nlohmann::json::array({point(0.5, {0.5, 0.5, 0.5}, 1)}));
     scene["light"] = true;
     EXPECT_NEAR(picture_of(scene, volume_of({1, 1, 1}, {128})).pixel(middle_px, middle_px)[0], 0.4, 1e-6);
 }
 
-/// A step along x looks to the side, one along y up: the sun stands to the left and above, so the left and the upper
+/// A step along x faces sideways, one along y faces up: the sun is to the left and above, so the left and the upper
 /// side are the brighter ones of each pair.
 TEST(VolumeLight, FallsFromTheUpperLeft) {
     nlohmann::json scene = scene_with(64, 1, {point(0.3, {0.5, 0.5, 0.5}, 0), point(0.6, {0.5, 0.5, 0.5}, 1)});
@@ -176,7 +176,7 @@ TEST(VolumeLight, FallsFromTheUpperLeft) {
     EXPECT_GT(at(0, -5), at(0, 5) + 0.05f);
 }
 
-/// Seen from above, the plinth's top reaches 0.05 into the box: slices above it veil it, those below are hidden.
+/// Seen from above, the plinth's top reaches 0.05 into the box: slices above it cover it, those below are hidden.
 TEST(VolumeOpaque, IsVeiledByWhatIsInFrontOfItAlone) {
     constexpr int slices = 50;
     const std::array<double, 3> color{0.1, 0.9, 0.2};
@@ -201,7 +201,7 @@ TEST(VolumeOpaque, IsVeiledByWhatIsInFrontOfItAlone) {
     }
 }
 
-/// Slices do not cut each other: drawing them in order is as good as sorting fragments, from any side and from within.
+/// Slices do not intersect: drawing them in order is as good as sorting fragments, from any side and from within.
 TEST(VolumeSlices, SortedAreExact) {
     const auto context = make_context("egl");
     for (const std::array<double, 3>& eye : {std::array{-2.5, 2.5, 4.0}, {3.0, -0.5, -2.0}, {0.2, 1.7, 0.3}}) {
@@ -215,7 +215,7 @@ TEST(VolumeSlices, SortedAreExact) {
     }
 }
 
-/// What the general shadings make of slices: they need no volume.
+/// The general shadings on slices: they need no volume.
 TEST(VolumeShadings, AllDraw) {
     const auto context = make_context("egl");
     for (const std::string shading : {"constant", "1-texture", "4-textures", "4-textures-math", "4x4-textures",

@@ -1,4 +1,4 @@
-// Uploaded files: what is taken, what is refused, and what a spec may make of them.
+// Uploaded files: what is accepted, what is refused, and how a spec may use them.
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { existsSync, readdirSync } from "node:fs";
@@ -24,18 +24,31 @@ async function listed(service) {
 
 function files_kept(service) {
   const folder = join(service.data, "assets");
-  return existsSync(folder) ? readdirSync(folder, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile()) : [];
+  return existsSync(folder)
+    ? readdirSync(folder, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile())
+    : [];
 }
 
-const textured = (image) => ({ ...QUICK, scene: {
-  type: "layers", shading: "1-texture", texture: { image, size: 16 },
-  layers: [{ rect: [0, 0, 1, 1], depth: 0.5, color: [1, 1, 1], alpha: 1 }] } });
+const textured = (image) => ({
+  ...QUICK,
+  scene: {
+    type: "layers",
+    shading: "1-texture",
+    texture: { image, size: 16 },
+    layers: [{ rect: [0, 0, 1, 1], depth: 0.5, color: [1, 1, 1], alpha: 1 }],
+  },
+});
 
-const CONSTANT = { ...QUICK, scene: {
-  type: "layers", shading: "constant",
-  layers: [{ rect: [0, 0, 1, 1], depth: 0.5, color: COLOR.map((part) => part / 255), alpha: 1 }] } };
+const CONSTANT = {
+  ...QUICK,
+  scene: {
+    type: "layers",
+    shading: "constant",
+    layers: [{ rect: [0, 0, 1, 1], depth: 0.5, color: COLOR.map((part) => part / 255), alpha: 1 }],
+  },
+};
 
-test("an upload is kept once and becomes the texture of a report", async () => {
+test("an upload is stored once and becomes the texture of a report", async () => {
   await with_service({}, async (service) => {
     const created = await upload(service, PICTURE, "image/png", "?name=rust.png");
     assert.equal(created.status, 201);
@@ -43,8 +56,18 @@ test("an upload is kept once and becomes the texture of a report", async () => {
     const asset = await created.json();
     const { created_at, ...rest } = asset;
     assert.ok(Math.abs(Date.now() - Date.parse(created_at)) < 600_000);
-    assert.deepEqual(rest, { sha256: SHA256, type: "texture", media_type: "image/png", name: "rust.png",
-                             bytes: PICTURE.length, width: 4, height: 4, channels: 3, notes: [], url: `/api/v1/assets/${SHA256}` });
+    assert.deepEqual(rest, {
+      sha256: SHA256,
+      type: "texture",
+      media_type: "image/png",
+      name: "rust.png",
+      bytes: PICTURE.length,
+      width: 4,
+      height: 4,
+      channels: 3,
+      notes: [],
+      url: `/api/v1/assets/${SHA256}`,
+    });
     const again = await upload(service, PICTURE, "Image/PNG; x=y", "?name=another");
     assert.equal(again.status, 200);
     assert.deepEqual(await again.json(), asset);
@@ -73,17 +96,17 @@ test("an upload is kept once and becomes the texture of a report", async () => {
   });
 });
 
-test("what is not what it says is refused with the reason, and nothing is left", async () => {
+test("a file that does not match its type is refused with the reason, and nothing is left", async () => {
   await with_service({ workers: 0, assets: { max_bytes: 20_000 } }, async (service) => {
     const huge = png(60000, 60000, 2, [Buffer.alloc(3)]);
     const refused = [
       ["no type", PICTURE, null, 415, /Content-Type is missing/],
       ["another type", PICTURE, "text/plain", 415, /image\/png.*not text\/plain/],
       ["a PNG as a JPEG", PICTURE, "image/jpeg", 422, /is a PNG, not a JPEG/],
-      ["a page as a PNG", "<html>", "image/png", 422, /no PNG, JPEG or OpenEXR/],
+      ["a web page as a PNG", "<html>", "image/png", 422, /not a PNG, JPEG, OpenEXR/],
       ["nothing", "", "image/png", 422, /empty/],
       ["half a PNG", PICTURE.subarray(0, PICTURE.length / 2), "image/png", 422, /ends too early/],
-      ["a PNG that claims too much", huge, "image/png", 422, /60000 x 60000/],
+      ["a PNG with a huge size in its header", huge, "image/png", 422, /60000 x 60000/],
       ["too much", Buffer.alloc(20_001), "image/png", 413, /too long/],
     ];
     for (const [name, bytes, type, status, reason] of refused) {
@@ -93,7 +116,7 @@ test("what is not what it says is refused with the reason, and nothing is left",
     assert.deepEqual(await listed(service), []);
     assert.deepEqual(files_kept(service), []);
     assert.equal((await upload(service, PICTURE, "image/png")).status, 201);
-    // The limit of assets is their own.
+    // Assets have their own limit.
     await assert_problem(await service.post(" ".repeat(30_000)), 400);
   });
 });
@@ -107,12 +130,22 @@ test("a check that takes too long is a refusal", async () => {
   });
 });
 
-test("a spec names an asset that is there, never a path", async () => {
+test("a spec names an existing asset, never a path", async () => {
   await with_service({ workers: 0 }, async (service) => {
-    const validate = (spec) => fetch(`${service.api}/specs/validate`, {
-      method: "POST", body: JSON.stringify(spec), headers: { "Content-Type": "application/json" } });
-    const wrong = [[SHA256, /no asset with this SHA-256/], ["/etc/passwd", /SHA-256/], ["rust.png", /SHA-256/],
-                   [SHA256.toUpperCase(), /lower-case/], ["", /leaf, smoke/], [7, /leaf, smoke/]];
+    const validate = (spec) =>
+      fetch(`${service.api}/specs/validate`, {
+        method: "POST",
+        body: JSON.stringify(spec),
+        headers: { "Content-Type": "application/json" },
+      });
+    const wrong = [
+      [SHA256, /no asset with this SHA-256/],
+      ["/etc/passwd", /SHA-256/],
+      ["rust.png", /SHA-256/],
+      [SHA256.toUpperCase(), /lower-case/],
+      ["", /leaf, smoke/],
+      [7, /leaf, smoke/],
+    ];
     for (const [image, reason] of wrong) {
       for (const ask of [validate, (spec) => service.post(spec)]) {
         const problem = await assert_problem(await ask({ ...textured(image), colour: 1 }), 422);
@@ -135,11 +168,17 @@ test("a spec names an asset that is there, never a path", async () => {
 test("each of four textures may be an upload, which is then in use", async () => {
   await with_service({ workers: 0 }, async (service) => {
     const uploads = [];
-    for (const color of [[1, 2, 3], [4, 5, 6]])
+    for (const color of [
+      [1, 2, 3],
+      [4, 5, 6],
+    ])
       uploads.push(await (await upload(service, plain_png(4, color), "image/png")).json());
     const four = ["leaf", uploads[0].sha256, "smoke", uploads[1].sha256];
     const problem = await assert_problem(await service.post(textured([...four.slice(0, 3), SHA256])), 422);
-    assert.deepEqual(problem.errors.map(({ pointer }) => pointer), ["/scene/texture/image/3"]);
+    assert.deepEqual(
+      problem.errors.map(({ pointer }) => pointer),
+      ["/scene/texture/image/3"],
+    );
     const id = await service.submit(textured(four));
     for (const { url } of uploads) await assert_problem(await fetch(service.origin + url, { method: "DELETE" }), 409);
     await fetch(`${service.api}/reports/${id}`, { method: "DELETE" });
@@ -147,7 +186,7 @@ test("each of four textures may be an upload, which is then in use", async () =>
   });
 });
 
-test("the OpenAPI document has the uploads", async () => {
+test("the OpenAPI document describes the uploads", async () => {
   await with_service({ workers: 0 }, async (service) => {
     const { paths, components } = await (await fetch(`${service.api}/openapi.json`)).json();
     const post = paths["/api/v1/assets"].post;

@@ -1,11 +1,11 @@
-// Processes that die at the worst moment: no report is half there, and the next job runs.
+// Processes that die at the worst moment: no report is incomplete, and the next job runs.
 import assert from "node:assert/strict";
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { is_alive, lasting, QUICK, Service, until, with_service } from "./service.mjs";
 
-/** Submits a job and waits until it is being rendered; gives its id and the renderer's process. */
+/** Submits a job and waits until it is being rendered; returns its id and the renderer's process id. */
 async function running_job(service, seconds) {
   const id = await service.submit(lasting(seconds));
   await until(async () => (await service.report(id)).progress > 0, "there is progress");
@@ -18,25 +18,27 @@ async function assert_next_job_runs(service) {
   await until(() => readdirSync(join(service.data, "scratch")).length === 0, "the scratch is cleaned");
 }
 
-test("a renderer that is killed is tried once more", () => with_service({}, async (service) => {
-  const { id, renderer } = await running_job(service, 2);
-  process.kill(renderer, "SIGKILL");
-  const report = await service.settled(id);
-  assert.equal(report.status, "done", service.log);
-  await assert_next_job_runs(service);
-}));
+test("a renderer that is killed is tried once more", () =>
+  with_service({}, async (service) => {
+    const { id, renderer } = await running_job(service, 2);
+    process.kill(renderer, "SIGKILL");
+    const report = await service.settled(id);
+    assert.equal(report.status, "done", service.log);
+    await assert_next_job_runs(service);
+  }));
 
-test("a renderer that is killed twice fails cleanly", () => with_service({}, async (service) => {
-  const { id, renderer } = await running_job(service, 30);
-  process.kill(renderer, "SIGKILL");
-  const second = await until(() => service.renderers().find((pid) => pid !== renderer), "the second attempt");
-  process.kill(second, "SIGKILL");
-  const report = await service.settled(id);
-  assert.equal(report.status, "failed");
-  assert.deepEqual(report.error, { title: "Rendering failed", detail: "The renderer died (signal 9)." });
-  assert.ok(report.finished_at);
-  await assert_next_job_runs(service);
-}));
+test("a renderer that is killed twice fails cleanly", () =>
+  with_service({}, async (service) => {
+    const { id, renderer } = await running_job(service, 30);
+    process.kill(renderer, "SIGKILL");
+    const second = await until(() => service.renderers().find((pid) => pid !== renderer), "the second attempt");
+    process.kill(second, "SIGKILL");
+    const report = await service.settled(id);
+    assert.equal(report.status, "failed");
+    assert.deepEqual(report.error, { title: "Rendering failed", detail: "The renderer died (signal 9)." });
+    assert.ok(report.finished_at);
+    await assert_next_job_runs(service);
+  }));
 
 test("a worker that is killed takes its renderer along, and its job goes to the next", () =>
   with_service({}, async (service) => {
@@ -50,8 +52,8 @@ test("a worker that is killed takes its renderer along, and its job goes to the 
     await assert_next_job_runs(service);
   }));
 
-test("a worker that hangs loses its job", () => with_service({ workers: 2, jobs: { lease_s: 1, heartbeat_s: 0.2 } },
-  async (service) => {
+test("a worker that hangs loses its job", () =>
+  with_service({ workers: 2, jobs: { lease_s: 1, heartbeat_s: 0.2 } }, async (service) => {
     const { id, renderer } = await running_job(service, 2);
     const busy = service.worker_of(renderer);
     process.kill(busy, "SIGSTOP");
@@ -60,7 +62,7 @@ test("a worker that hangs loses its job", () => with_service({ workers: 2, jobs:
     assert.equal(report.status, "done", service.log);
   }));
 
-test("after a kill of the service what was queued runs and what was done is there", async () => {
+test("after the service is killed, queued jobs run and finished reports are there", async () => {
   const service = new Service();
   try {
     await service.start();
@@ -96,7 +98,10 @@ test("a stop ends cleanly and gives the running job back", async () => {
     assert.equal((await waiting).status, 202);
     assert.ok(!is_alive(worker) && !is_alive(renderer));
     await service.start("--workers", "0");
-    assert.deepEqual((await service.reports()).map((report) => report.status), ["queued", "queued"]);
+    assert.deepEqual(
+      (await service.reports()).map((report) => report.status),
+      ["queued", "queued"],
+    );
     await service.stop();
     await service.start();
     assert.equal((await service.settled(id)).status, "done");

@@ -19,7 +19,7 @@ function chunk(name, data) {
   return bytes;
 }
 
-/** `rows` are the bytes of each row without a filter's byte; colour type 2 is RGB, 0 grey. */
+/** `rows` are the bytes of each row without its filter byte; color type 2 is RGB, 0 gray. */
 export function png(width, height, color_type, rows) {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
@@ -27,11 +27,15 @@ export function png(width, height, color_type, rows) {
   header[8] = 8;
   header[9] = color_type;
   const data = Buffer.concat(rows.flatMap((row) => [Buffer.from([0]), row]));
-  return Buffer.concat([Buffer.from("\x89PNG\r\n\x1a\n", "latin1"), chunk("IHDR", header),
-                        chunk("IDAT", deflateSync(data, { level: 1 })), chunk("IEND", Buffer.alloc(0))]);
+  return Buffer.concat([
+    Buffer.from("\x89PNG\r\n\x1a\n", "latin1"),
+    chunk("IHDR", header),
+    chunk("IDAT", deflateSync(data, { level: 1 })),
+    chunk("IEND", Buffer.alloc(0)),
+  ]);
 }
 
-/** One colour, RGB of 8 bits. */
+/** A single color, RGB of 8 bits. */
 export function plain_png(side, [red, green, blue]) {
   const row = Buffer.concat(Array(side).fill(Buffer.from([red, green, blue])));
   return png(side, side, 2, Array(side).fill(row));

@@ -1,4 +1,4 @@
-// Starts the real program for a test, on a port and in a folder of its own.
+// Starts the real program for a test, with its own port and folder.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -7,6 +7,7 @@ import { connect } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
+import { contract_at, hold_to_contract } from "./contract.mjs";
 
 const PROGRAM = process.env.SHEER;
 assert.ok(PROGRAM, "SHEER must be the path of the program");
@@ -15,18 +16,25 @@ export { sleep };
 
 /** A comparison that takes well under a second. */
 export const QUICK = {
-  title: "One red layer", image: { width: 16, height: 16 },
+  title: "One red layer",
+  image: { width: 16, height: 16 },
   scene: { type: "layers", layers: [{ rect: [0, 0, 1, 1], depth: 0.5, color: [1, 0, 0], alpha: 0.5 }] },
-  methods: ["b2f", "f2b"], timing: { warmup: 1, rounds: 1 },
+  methods: ["b2f", "f2b"],
+  timing: { warmup: 1, rounds: 1 },
 };
 
-/** One that is timed for `seconds`. */
+/** A comparison that is timed for `seconds`. */
 export function lasting(seconds, title = "lasting") {
-  return { ...QUICK, title, timing: { warmup: 1, rounds: 1000, max_seconds: seconds }, image: { width: 512, height: 512 },
-           scene: { type: "quads", count: 64, shading: "4x4-textures", texture: { image: "leaf", size: 256 } } };
+  return {
+    ...QUICK,
+    title,
+    timing: { warmup: 1, rounds: 1000, max_seconds: seconds },
+    image: { width: 512, height: 512 },
+    scene: { type: "quads", count: 64, shading: "4x4-textures", texture: { image: "leaf", size: 256 } },
+  };
 }
 
-/** Asks again until `question` gives something true. */
+/** Repeats `question` until it returns something true. */
 export async function until(question, what, limit_s = 60) {
   const deadline = Date.now() + limit_s * 1000;
   while (Date.now() < deadline) {
@@ -45,7 +53,7 @@ function children_of(pid) {
       const [, parent] = /^\d+ \(.*\) \S (\d+)/s.exec(readFileSync(`/proc/${name}/stat`, "utf8"));
       if (Number(parent) === pid) children.push(Number(name));
     } catch {
-      // It ended meanwhile.
+      // The process has ended meanwhile.
     }
   }
   return children;
@@ -73,24 +81,33 @@ export class Service {
     this.data = join(folder, "data");
     this.config = join(folder, "server.json");
     this.listen = "127.0.0.1:0";
-    this.wrapper = [];  // a command that starts the program
+    this.wrapper = []; // a command that starts the program
+    this.program = PROGRAM;
     writeFileSync(this.config, JSON.stringify(config));
   }
 
   async start(...more_arguments) {
     this.log = "";
-    const [program, ...words] = [...this.wrapper, PROGRAM];
-    this.process = spawn(program, [...words, "serve", "--listen", this.listen, "--data", this.data, "--config", this.config,
-                                   ...more_arguments], { stdio: ["ignore", "pipe", "pipe"] });
-    this.process.stderr.on("data", (text) => { this.log += text; });
+    const [program, ...words] = [...this.wrapper, this.program];
+    this.process = spawn(
+      program,
+      [...words, "serve", "--listen", this.listen, "--data", this.data, "--config", this.config, ...more_arguments],
+      { stdio: ["ignore", "pipe", "pipe"] },
+    );
+    this.process.stderr.on("data", (text) => {
+      this.log += text;
+    });
     this.ended = new Promise((resolve) => this.process.on("exit", (code, signal) => resolve({ code, signal })));
     let output = "";
-    this.process.stdout.on("data", (text) => { output += text; });
+    this.process.stdout.on("data", (text) => {
+      output += text;
+    });
     const line = () => /^Sheer listens on (http:\/\/\S+)\n/.exec(output);
     await until(() => line() || this.process.exitCode !== null, "the service listens");
     assert.ok(line(), `the service ended: ${this.log}`);
     this.origin = line()[1];
     this.api = `${this.origin}/api/v1`;
+    await hold_to_contract(this.origin, this.program);
     return this;
   }
 
@@ -104,26 +121,36 @@ export class Service {
     rmSync(this.folder, { recursive: true, force: true });
   }
 
-  /** The end of a service that should be well: a sanitizer's complaint shows in the exit code. */
+  /** Ends a service that should be healthy: a sanitizer's error shows in the exit code. */
   async end_well() {
     const ended = await this.stop();
     await this.end();
     assert.deepEqual(ended, { code: 0, signal: null }, this.log);
   }
 
-  workers() { return children_of(this.process.pid).filter((pid) => command_line(pid)[1] === "worker"); }
+  workers() {
+    return children_of(this.process.pid).filter((pid) => command_line(pid)[1] === "worker");
+  }
 
-  /** The children that render jobs, without those that probe. */
+  /** The child processes that render jobs, without those that probe. */
   renderers() {
-    return this.workers().flatMap(children_of).filter((pid) => command_line(pid).some((word) => word.endsWith("spec.json")));
+    return this.workers()
+      .flatMap(children_of)
+      .filter((pid) => command_line(pid).some((word) => word.endsWith("spec.json")));
   }
 
   /** The worker whose child `renderer` is. */
-  worker_of(renderer) { return this.workers().find((pid) => children_of(pid).includes(renderer)); }
+  worker_of(renderer) {
+    return this.workers().find((pid) => children_of(pid).includes(renderer));
+  }
 
   post(spec, headers = {}) {
     const body = typeof spec === "string" ? spec : JSON.stringify(spec);
-    return fetch(`${this.api}/reports`, { method: "POST", body, headers: { "Content-Type": "application/json", ...headers } });
+    return fetch(`${this.api}/reports`, {
+      method: "POST",
+      body,
+      headers: { "Content-Type": "application/json", ...headers },
+    });
   }
 
   async submit(spec) {
@@ -146,21 +173,38 @@ export class Service {
 
   /** The report once it is in one of `statuses`. */
   reached(id, ...statuses) {
-    return until(async () => {
-      const report = await this.report(id);
-      return statuses.includes(report.status) && report;
-    }, `report ${id} is ${statuses.join(" or ")}`, 120);
+    return until(
+      async () => {
+        const report = await this.report(id);
+        return statuses.includes(report.status) && report;
+      },
+      `report ${id} is ${statuses.join(" or ")}`,
+      120,
+    );
   }
 
-  settled(id) { return this.reached(id, "done", "failed", "cancelled"); }
+  settled(id) {
+    return this.reached(id, "done", "failed", "cancelled");
+  }
 
-  /** A request with headers that fetch does not let one set. */
+  /** A request with headers that fetch does not allow. */
   raw(method, path, headers = {}, body = "") {
     return new Promise((resolve, reject) => {
       const request = http.request(this.origin + path, { method, headers }, (response) => {
         let text = "";
-        response.on("data", (chunk) => { text += chunk; });
-        response.on("end", () => resolve({ status: response.statusCode, headers: response.headers, text }));
+        response.on("data", (chunk) => {
+          text += chunk;
+        });
+        response.on("end", () => {
+          const { statusCode: status, headers: fields } = response;
+          try {
+            const type = fields["content-type"];
+            contract_at(this.origin)?.require_answer({ method, target: path, status, type, text });
+            resolve({ status, headers: fields, text });
+          } catch (error) {
+            reject(error);
+          }
+        });
       });
       request.on("error", reject);
       request.end(body);
@@ -168,19 +212,23 @@ export class Service {
   }
 }
 
-/** Sends bytes as they are and reads until the service ends the connection. */
+/** Sends raw bytes and reads until the service ends the connection. */
 export function talk(service, bytes, limit_ms = 30_000) {
   return new Promise((resolve, reject) => {
     const socket = connect(new URL(service.origin).port, "127.0.0.1", () => socket.write(bytes));
     let text = "";
     socket.setTimeout(limit_ms, () => socket.destroy(new Error("the service does not end the connection")));
-    socket.on("data", (chunk) => { text += chunk; });
+    socket.on("data", (chunk) => {
+      text += chunk;
+    });
     socket.on("close", () => resolve(text));
-    socket.on("error", (error) => (error.code === "ECONNRESET" || error.code === "EPIPE" ? resolve(text) : reject(error)));
+    socket.on("error", (error) =>
+      error.code === "ECONNRESET" || error.code === "EPIPE" ? resolve(text) : reject(error),
+    );
   });
 }
 
-/** Runs `body` with a started service and ends it whatever happens. */
+/** Runs `body` with a running service and ends it whatever happens. */
 export async function with_service(config, body) {
   const service = new Service(config);
   try {
@@ -206,7 +254,10 @@ export async function read_events(response, enough = () => false) {
         const [, name, value] = /^(\w*): ?(.*)$/.exec(line) ?? [null, "", ""];
         if (name) event[name] = value;
       }
-      if (event.data) event.data = JSON.parse(event.data);
+      if (event.data) {
+        event.data = JSON.parse(event.data);
+        contract_at(response.url)?.require_event(event.data);
+      }
       events.push(event);
     }
     if (enough(events)) break;
@@ -216,7 +267,10 @@ export async function read_events(response, enough = () => false) {
 
 export async function assert_problem(response, status) {
   const text = typeof response.text === "function" ? await response.text() : response.text;
-  const type = typeof response.headers.get === "function" ? response.headers.get("content-type") : response.headers["content-type"];
+  const type =
+    typeof response.headers.get === "function"
+      ? response.headers.get("content-type")
+      : response.headers["content-type"];
   assert.equal(response.status, status, text);
   assert.equal(type, "application/problem+json");
   const problem = JSON.parse(text);

@@ -1,4 +1,4 @@
-// Shadings of the user's own: what is wrong in them is said with their line, and harms no other job.
+// The user's own shadings: errors in them are reported with their line, and do not affect other jobs.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { assert_problem, QUICK, Service } from "./service.mjs";
@@ -15,9 +15,11 @@ async function finished(spec) {
   return response.json();
 }
 
-async function assert_next_job_runs() { assert.equal((await finished(QUICK)).status, "done", service.log); }
+async function assert_next_job_runs() {
+  assert.equal((await finished(QUICK)).status, "done", service.log);
+}
 
-test("what no compiler is needed for is refused at once", async () => {
+test("errors that need no compiler are refused at once", async () => {
   const problem = await assert_problem(await service.post(with_body("return tint;\n#extension all : enable")), 422);
   assert.equal(problem.errors.length, 1);
   assert.equal(problem.errors[0].pointer, "/scene/shading/glsl");

@@ -1,4 +1,4 @@
-// Volumes that are uploaded: rendered as what they hold, refused with the reason.
+// Uploaded volumes: rendered correctly, or refused with the reason.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
@@ -12,17 +12,29 @@ function nrrd(encoding, data) {
 }
 
 async function upload(service, bytes, type) {
-  const response = await fetch(`${service.api}/assets`, { method: "POST", body: bytes, headers: { "Content-Type": type } });
+  const response = await fetch(`${service.api}/assets`, {
+    method: "POST",
+    body: bytes,
+    headers: { "Content-Type": type },
+  });
   return { response, asset: await response.clone().json() };
 }
 
 const spec_of = (volume) => ({
   ...QUICK,
-  scene: { type: "volume", slices: 16, frame: false, volume,
-           transfer: [{ value: 0, color: [1, 0, 0], alpha: 0 }, { value: 1, color: [0, 1, 0], alpha: 0.2 }] },
+  scene: {
+    type: "volume",
+    slices: 16,
+    frame: false,
+    volume,
+    transfer: [
+      { value: 0, color: [1, 0, 0], alpha: 0 },
+      { value: 1, color: [0, 1, 0], alpha: 0.2 },
+    ],
+  },
 });
 
-test("the same voxels give the same picture, however they are packed", async () => {
+test("the same voxels give the same picture, however they are encoded", async () => {
   await with_service({}, async (service) => {
     const pictures = [];
     for (const [bytes, type, raw] of [
@@ -41,7 +53,10 @@ test("the same voxels give the same picture, however they are packed", async () 
       }
       const report = await service.settled(await service.submit(spec_of({ data: asset.sha256, ...(raw && { raw }) })));
       assert.equal(report.status, "done", JSON.stringify(report.error));
-      assert.deepEqual(report.runs[0].notes.map(({ code }) => code), ["value-range"]);
+      assert.deepEqual(
+        report.runs[0].notes.map(({ code }) => code),
+        ["value-range"],
+      );
       pictures.push(report.runs[0].results[0].images.color.sha256);
     }
     assert.equal(pictures[1], pictures[0]);
@@ -59,17 +74,17 @@ test("a raw volume that is too short fails at its field with the reason", async 
     assert.equal(report.status, "failed");
     const text = JSON.stringify(report.error);
     assert.match(text, /\/scene\/volume\/data/);
-    assert.match(text, /24 bytes of voxels; 4 x 3 x 3 of type uint8 are 36/);
+    assert.match(text, /24 bytes of voxels, but 4 x 3 x 3 of type uint8 are 36/);
   });
 });
 
-test("a file that is no volume is refused at once", async () => {
+test("a file that is not a volume is refused at once", async () => {
   await with_service({ workers: 0 }, async (service) => {
     for (const [bytes, reason] of [
       [Buffer.from("P6 1 1 255 abc"), /not an NRRD file/],
       [nrrd("raw", VOXELS.subarray(1)), /holds 23 bytes of voxels/],
       [nrrd("gzip", Buffer.from("no gzip")), /damaged/],
-      [nrrd("zrl", VOXELS), /encoding "zrl"; taken are raw, ascii, hex, gzip and bzip2/],
+      [nrrd("zrl", VOXELS), /encoding "zrl"; supported are raw, ascii, hex, gzip and bzip2/],
       [nrrd("raw\ndata file: voxels.raw", Buffer.alloc(0)), /keeps its data in another file, "voxels.raw"/],
     ]) {
       const { response } = await upload(service, bytes, "application/x-nrrd");

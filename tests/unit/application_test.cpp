@@ -12,12 +12,12 @@ namespace {
 
 using nlohmann::json;
 
-class ApplicationTest : public test::StoreTest {
+class ApplicationTest : public test::WithStore {
   protected:
     ApplicationTest() {
         m_service.clock = m_clock;
-        m_service.max_queued = 2;
-        m_service.ready_within = std::chrono::seconds(10);
+        m_service.limits.max_queued = 2;
+        m_service.limits.ready_within = std::chrono::seconds(10);
         m_service.list_devices = [] { return json::array({{{"name", "one"}}}); };
         m_application.emplace(make_guard(true, {}), make_router(m_service));
     }
@@ -47,7 +47,7 @@ class ApplicationTest : public test::StoreTest {
         return all;
     }
 
-    std::size_t stored() { return m_store.list({}).reports.size(); }
+    std::size_t stored() { return m_reports.list({}).reports.size(); }
 
     const std::string m_spec = R"({"scene": {"type": "layers", "layers": [{"rect": [0, 0, 1, 1], "depth": 0.5,
         "color": [1, 0, 0], "alpha": 0.5}]}, "methods": ["b2f"]})";
@@ -70,7 +70,7 @@ TEST_F(ApplicationTest, ASpecIsQueued) {
     EXPECT_EQ(body(get(location)), report);
 }
 
-TEST_F(ApplicationTest, WhatIsWrongIsNotStored) {
+TEST_F(ApplicationTest, WrongSpecsAreNotStored) {
     EXPECT_EQ(post("{").status, 400);
     EXPECT_EQ(post("").status, 400);
     EXPECT_EQ(post("{\"a\": 1e999}").status, 400);
@@ -85,7 +85,7 @@ TEST_F(ApplicationTest, WhatIsWrongIsNotStored) {
     EXPECT_EQ(stored(), 0u);
 }
 
-TEST_F(ApplicationTest, AFullQueueSaysWhenToComeAgain) {
+TEST_F(ApplicationTest, AFullQueueSaysWhenToTryAgain) {
     EXPECT_EQ(post(m_spec).status, 202);
     EXPECT_EQ(post(m_spec).status, 202);
     const Response full = post(m_spec);
@@ -96,7 +96,7 @@ TEST_F(ApplicationTest, AFullQueueSaysWhenToComeAgain) {
 
 TEST_F(ApplicationTest, AnIdempotencyKeyGivesTheSameReport) {
     const Response first = post(m_spec, {{"Idempotency-Key", "k"}});
-    // The same document, written another way.
+    // The same document, written in another way.
     const Response again = post(json::parse(m_spec).dump(2), {{"Idempotency-Key", "k"}});
     EXPECT_EQ(again.status, 202);
     EXPECT_EQ(body(again)["id"], body(first)["id"]);
@@ -116,18 +116,18 @@ TEST_F(ApplicationTest, WaitingEndsWithTheReport) {
     EXPECT_EQ(meanwhile.headers.find("Preference-Applied"), "wait=5");
     const Lease job = lease();
     EXPECT_FALSE(waiting.ready());
-    m_store.commit(job, finished(job, "picture"));
+    m_queue.commit(job, finished(job, "picture"));
     const auto ready = waiting.ready();
     ASSERT_TRUE(ready);
     EXPECT_EQ(ready->status, 200);
     EXPECT_EQ(ready->headers.find("Preference-Applied"), "wait=5");
     EXPECT_EQ(body(*ready)["status"], "done");
-    m_store.remove(job.id);
+    m_reports.remove(job.id);
     EXPECT_EQ(waiting.ready()->status, 404);
 }
 
-TEST_F(ApplicationTest, NobodyWaitsForever) {
-    m_service.max_wait = std::chrono::seconds(7);
+TEST_F(ApplicationTest, WaitingIsLimited) {
+    m_service.limits.max_wait = std::chrono::seconds(7);
     EXPECT_EQ(std::get<Waiting>(ask("POST", "/api/v1/reports", {{"Prefer", "wait=100000"}}, m_spec)).limit,
               std::chrono::seconds(7));
 }
@@ -141,43 +141,43 @@ TEST_F(ApplicationTest, EventsFollowTheReport) {
     EXPECT_TRUE(first.text.starts_with("id: 1\nevent: progress\ndata: {"));
     EXPECT_EQ(stream.next().text, "");
     const Lease job = lease();
-    m_store.heartbeat(job, 0.5, "timing");
+    m_queue.heartbeat(job, 0.5, "timing");
     const EventChunk half = stream.next();
-    EXPECT_TRUE(half.text.starts_with("id: 3\n"));  // the start of the job and its progress, in one
+    EXPECT_TRUE(half.text.starts_with("id: 3\n"));  // the start of the job and its progress in one event
     EXPECT_NE(half.text.find("\"progress\":0.5"), std::string::npos);
     EXPECT_FALSE(half.last);
-    m_store.commit(job, finished(job, "picture"));
+    m_queue.commit(job, finished(job, "picture"));
     const EventChunk last = stream.next();
     EXPECT_TRUE(last.text.starts_with("id: 4\nevent: done\n"));
     EXPECT_TRUE(last.last);
-    // A reader that comes again gets what it missed, or learns that nothing will come.
+    // A client that reconnects gets what it missed, or learns that nothing more will come.
     auto resumed = std::get<EventStream>(ask("GET", target, {{"Last-Event-ID", "3"}}));
     EXPECT_EQ(resumed.next().text, last.text);
     EXPECT_EQ(get(target, {{"Last-Event-ID", "4"}}).status, 204);
 }
 
-TEST_F(ApplicationTest, EventsTellOfFailureAndCancellation) {
+TEST_F(ApplicationTest, EventsReportFailureAndCancellation) {
     submit();
     const Lease job = lease();
     auto stream = std::get<EventStream>(ask("GET", "/api/v1/reports/" + job.id + "/events"));
-    m_store.fail(job, {"Rendering failed", "why"}, false);
+    m_queue.fail(job, {"Rendering failed", "why"}, false);
     const EventChunk failed = stream.next();
     EXPECT_NE(failed.text.find("event: failed\n"), std::string::npos);
     EXPECT_NE(failed.text.find("\"detail\":\"why\""), std::string::npos);
     EXPECT_TRUE(failed.last);
     const std::string queued = submit();
     auto other = std::get<EventStream>(ask("GET", "/api/v1/reports/" + queued + "/events"));
-    m_store.remove(queued);
+    m_reports.remove(queued);
     EXPECT_NE(other.next().text.find("event: cancelled\n"), std::string::npos);
     auto deleted = std::get<EventStream>(ask("GET", "/api/v1/reports/" + queued + "/events"));
-    m_store.remove(queued);
+    m_reports.remove(queued);
     EXPECT_TRUE(deleted.next().last);
 }
 
 TEST_F(ApplicationTest, AFailedReportSaysWhy) {
     submit();
     const Lease job = lease();
-    m_store.fail(job, {"Rendering failed", "The renderer died (signal 11)."}, false);
+    m_queue.fail(job, {"Rendering failed", "The renderer died (signal 11)."}, false);
     const json report = body(get("/api/v1/reports/" + job.id));
     EXPECT_EQ(report["status"], "failed");
     EXPECT_EQ(report["error"], (json{{"title", "Rendering failed"}, {"detail", "The renderer died (signal 11)."}}));
@@ -187,7 +187,7 @@ TEST_F(ApplicationTest, AFailedReportSaysWhy) {
     EXPECT_THAT(std::get<std::string>(junit.body), testing::HasSubstr("errors=\"1\""));
 }
 
-TEST_F(ApplicationTest, DeletionDependsOnHowFarAReportIs) {
+TEST_F(ApplicationTest, DeletionDependsOnTheStatus) {
     const auto remove = [&](const std::string& id) {
         return std::get<Response>(ask("DELETE", "/api/v1/reports/" + id)).status;
     };
@@ -200,12 +200,12 @@ TEST_F(ApplicationTest, DeletionDependsOnHowFarAReportIs) {
     EXPECT_EQ(remove(running), 202);
 }
 
-TEST_F(ApplicationTest, APictureIsServedAsAFileThatNeverChanges) {
+TEST_F(ApplicationTest, PicturesAreServedAsImmutable) {
     make_done("done", "picture");
     const std::string sha256 = sha256_hex("picture");
     const Response response = get("/api/v1/blobs/" + sha256);
     EXPECT_EQ(response.status, 200);
-    EXPECT_EQ(read_file(std::get<std::filesystem::path>(response.body), 100), "picture");
+    EXPECT_EQ(read_all(*std::get<ContentPtr>(response.body), 100), "picture");
     EXPECT_EQ(response.headers.find("Content-Type"), "image/png");
     EXPECT_EQ(response.headers.find("ETag"), "\"" + sha256 + "\"");
     EXPECT_THAT(*response.headers.find("Cache-Control"), testing::HasSubstr("immutable"));
@@ -222,7 +222,7 @@ TEST_F(ApplicationTest, AnEtagChangesWithTheReport) {
     EXPECT_EQ(get("/api/v1/reports/" + id, {{"If-None-Match", etag}}).status, 200);
 }
 
-TEST_F(ApplicationTest, TheListGoesOnAtItsCursor) {
+TEST_F(ApplicationTest, TheListContinuesAtItsCursor) {
     for (const char* title : {"a", "b", "c"}) submit(title);
     const json first = body(get("/api/v1/reports?limit=2"));
     EXPECT_EQ(first["reports"][0]["title"], "c");
@@ -236,17 +236,17 @@ TEST_F(ApplicationTest, TheListGoesOnAtItsCursor) {
     EXPECT_EQ(body(get("/api/v1/reports?status=done"))["reports"].size(), 0u);
 }
 
-TEST_F(ApplicationTest, ReadyMeansThatAWorkerRenderedLately) {
+TEST_F(ApplicationTest, ReadyMeansThatAWorkerRenderedRecently) {
     EXPECT_EQ(get("/healthz").status, 200);
     EXPECT_EQ(get("/readyz").status, 503);
-    m_store.note_rendered();
+    m_readiness.note_rendered();
     EXPECT_EQ(get("/readyz").status, 200);
     m_now_ms += 10'001;
     EXPECT_EQ(get("/readyz").status, 503);
     EXPECT_EQ(get("/healthz").status, 200);
 }
 
-TEST_F(ApplicationTest, OtherSitesAreKeptOut) {
+TEST_F(ApplicationTest, OtherSitesAreRefused) {
     const auto status = [&](const char* method, std::vector<std::pair<std::string, std::string>> headers) {
         return std::get<Response>(ask(method, "/api/v1/reports", std::move(headers), m_spec)).status;
     };
@@ -264,7 +264,7 @@ TEST_F(ApplicationTest, OtherSitesAreKeptOut) {
     EXPECT_EQ(status("POST", {{"Origin", "http://127.0.0.1:8080"}, {"Sec-Fetch-Site", "same-origin"}}), 202);
 }
 
-TEST(GuardTest, ElsewhereAnyNameWillDoUnlessSomeAreListed) {
+TEST(GuardTest, BeyondLoopbackAnyNameIsAllowedUnlessSomeAreListed) {
     Request request{.method = "GET", .target = "/", .headers = {}, .body = "", .path_values = {}};
     request.headers.add("Host", "sheer.example:80");
     EXPECT_TRUE(make_guard(true, {}).refusal(request));
@@ -273,7 +273,7 @@ TEST(GuardTest, ElsewhereAnyNameWillDoUnlessSomeAreListed) {
     EXPECT_TRUE(make_guard(false, {"other.example"}).refusal(request));
 }
 
-TEST_F(ApplicationTest, MethodsAreAnsweredOrNamed) {
+TEST_F(ApplicationTest, UnknownMethodsGetTheAllowedOnes) {
     const Response options = std::get<Response>(ask("OPTIONS", "/api/v1/reports"));
     EXPECT_EQ(options.status, 204);
     EXPECT_EQ(options.headers.find("Allow"), "POST, GET, HEAD, OPTIONS");
@@ -293,22 +293,17 @@ TEST_F(ApplicationTest, EveryAnswerIsGuardedAgainstSniffing) {
     }
 }
 
-TEST_F(ApplicationTest, OurOwnFaultsAreNotExplainedToTheClient) {
+TEST_F(ApplicationTest, InternalErrorsAreNotExplainedToTheClient) {
     m_service.list_devices = []() -> json { throw std::runtime_error("secret"); };
     const Response devices = get("/api/v1/devices");
     EXPECT_EQ(devices.status, 503);
     EXPECT_EQ(std::get<std::string>(devices.body).find("secret"), std::string::npos);
-    make_done("done", "picture");
-    std::filesystem::remove(m_store.find_blob(sha256_hex("picture"))->path);
-    const Response blob = get("/api/v1/blobs/" + sha256_hex("picture"));
-    EXPECT_EQ(blob.status, 500);
-    EXPECT_EQ(std::get<std::string>(blob.body).find(m_folder.path().string()), std::string::npos);
 }
 
-TEST_F(ApplicationTest, APixelIsTakenApartInTheRunThatIsAskedFor) {
+TEST_F(ApplicationTest, APixelIsExplainedInTheRequestedRun) {
     PixelAnswer answer{.json = R"({"x": 3})", .refusal = ""};
     std::vector<int> asked;
-    m_service.take_pixel_apart = [&](const std::string& report, const PixelPlace& place) {
+    m_service.pixel = [&](const std::string& report, const PixelPlace& place) {
         EXPECT_EQ(json::parse(report)["runs"].size(), 2u);
         asked = {place.x, place.y, place.run};
         return answer;
@@ -320,7 +315,7 @@ TEST_F(ApplicationTest, APixelIsTakenApartInTheRunThatIsAskedFor) {
     FinishedReport report = finished(job, "picture");
     report.report["spec"] = {{"image", {{"width", 4}, {"height", 8}}}};
     report.report["runs"] = {{{"point", json::object()}}, {{"point", {{"/image/width", 6}}}}};
-    m_store.commit(job, report);
+    m_queue.commit(job, report);
     EXPECT_EQ(body(get(pixel + "?x=5&y=7&run=1"))["x"], 3);
     EXPECT_EQ(asked, (std::vector{5, 7, 1}));
     const Response outside = get(pixel + "?x=5&y=8");
@@ -355,7 +350,7 @@ TEST_F(ApplicationTest, TheOpenapiDocumentDescribesEveryCall) {
         calls += !of_page;
     }
     EXPECT_EQ(described, calls);
-    EXPECT_EQ(calls, 25u);
+    EXPECT_EQ(calls, 28u);
     std::vector<std::string> references;
     collect_references(document["paths"], references);
     EXPECT_FALSE(references.empty());

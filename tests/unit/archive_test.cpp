@@ -1,84 +1,92 @@
-#include <SQLiteCpp/SQLiteCpp.h>
+// How every store handles reports.
+#include <chrono>
+#include <thread>
 
+#include "renderer/core/sha256.h"
 #include "store_fixture.h"
 
 namespace sheer::test::archive_test {
 namespace {
 
 using nlohmann::json;
+using namespace std::chrono_literals;
 using Outcome = SubmitResult::Outcome;
+using Removal = ReportArchive::Removal;
 
 class ArchiveTest : public StoreTest {
   protected:
     std::vector<std::string> titles(const ListFilter& filter) {
         std::vector<std::string> all;
-        for (const ReportSummary& summary : m_store.list(filter).reports) all.push_back(summary.title);
+        for (const ReportSummary& summary : m_reports.list(filter).reports) all.push_back(summary.title);
         return all;
     }
 };
 
 using Titles = std::vector<std::string>;
 
-TEST_F(ArchiveTest, AQueuedReportIsFoundWithItsSpec) {
+TEST_P(ArchiveTest, AQueuedReportIsFoundWithItsSpec) {
     const std::string id = submit("first");
-    const auto record = m_store.find(id);
+    const auto record = m_reports.find(id);
     ASSERT_TRUE(record);
     EXPECT_EQ(record->status, Status::queued);
     EXPECT_EQ(record->created_ms, m_now_ms);
     EXPECT_EQ(json::parse(record->spec)["title"], "first");
     EXPECT_EQ(record->spec_sha256, "hash of first");
     EXPECT_FALSE(record->finished_ms);
-    EXPECT_FALSE(m_store.find("01900000-0000-7000-8000-000000000000"));
+    EXPECT_FALSE(m_reports.find("01900000-0000-7000-8000-000000000000"));
 }
 
-TEST_F(ArchiveTest, TheQueueHasAnEnd) {
+TEST_P(ArchiveTest, TheQueueIsLimited) {
     const auto report = [&] { return NewReport{.id = m_ids.next(), .spec = "{}", .spec_sha256 = ""}; };
-    EXPECT_EQ(m_store.submit(report(), 2).outcome, Outcome::created);
-    EXPECT_EQ(m_store.submit(report(), 2).outcome, Outcome::created);
-    EXPECT_EQ(m_store.submit(report(), 2).outcome, Outcome::queue_full);
-    EXPECT_EQ(m_store.list({}).reports.size(), 2u);
-    lease();  // a job that runs waits no longer
-    EXPECT_EQ(m_store.submit(report(), 2).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::queue_full);
+    EXPECT_EQ(m_reports.list({}).reports.size(), 2u);
+    lease();  // a running job is no longer waiting
+    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::created);
 }
 
-TEST_F(ArchiveTest, AKeyNamesOneReportAndOneBody) {
+TEST_P(ArchiveTest, AKeyNamesOneReportAndOneBody) {
     NewReport report{.id = m_ids.next(), .spec = "{}", .spec_sha256 = "", .idempotency = IdempotencyKey{"key", "body"}};
     const std::string id = report.id;
-    EXPECT_EQ(m_store.submit(report, 1).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report, 1).outcome, Outcome::created);
     report.id = m_ids.next();
-    const SubmitResult repeated = m_store.submit(report, 1);  // though the queue is full
+    const SubmitResult repeated = m_queue.submit(report, 1);  // although the queue is full
     EXPECT_EQ(repeated.outcome, Outcome::repeated);
     EXPECT_EQ(repeated.id, id);
     report.idempotency->body_sha256 = "other";
-    EXPECT_EQ(m_store.submit(report, 1).outcome, Outcome::key_reused);
-    EXPECT_EQ(m_store.list({}).reports.size(), 1u);
+    EXPECT_EQ(m_queue.submit(report, 1).outcome, Outcome::key_reused);
+    EXPECT_EQ(m_reports.list({}).reports.size(), 1u);
 }
 
-TEST_F(ArchiveTest, TheListIsNewestFirstAndComesInPages) {
+TEST_P(ArchiveTest, TheListIsNewestFirstAndComesInPages) {
     for (const char* title : {"a", "b", "c", "d", "e"}) submit(title);
-    ReportPage page = m_store.list({.limit = 2});
+    ReportPage page = m_reports.list({.limit = 2});
     EXPECT_EQ(page.reports[0].title, "e");
     EXPECT_EQ(page.reports[1].title, "d");
     EXPECT_TRUE(page.more);
-    submit("newer than the page");  // does not move what comes after a page
-    page = m_store.list({.before_id = page.reports[1].id, .limit = 2});
+    submit("newer than the page");  // does not change the following pages
+    page = m_reports.list({.before_id = page.reports[1].id, .limit = 2});
     EXPECT_EQ(page.reports[0].title, "c");
-    page = m_store.list({.before_id = page.reports[1].id, .limit = 2});
+    EXPECT_EQ(page.count, 6) << "all pages together, with those that came later";
+    page = m_reports.list({.before_id = page.reports[1].id, .limit = 2});
     ASSERT_EQ(page.reports.size(), 1u);
     EXPECT_EQ(page.reports[0].title, "a");
     EXPECT_FALSE(page.more);
 }
 
-TEST_F(ArchiveTest, TheLastPageThatIsFullHasNoneAfterIt) {
+TEST_P(ArchiveTest, NothingFollowsAFullLastPage) {
     submit("a");
     submit("b");
-    EXPECT_FALSE(m_store.list({.limit = 2}).more);
+    EXPECT_FALSE(m_reports.list({.limit = 2}).more);
 }
 
-TEST_F(ArchiveTest, TheListIsFiltered) {
+TEST_P(ArchiveTest, TheListIsFiltered) {
     submit("Alpha 100%", {{"tags", {{"branch", "main"}}}});
     submit("beta", {{"scene", {{"type", "layers"}}}, {"tags", {{"branch", "topic"}}}});
     submit("gamma", {{"methods", {{{"id", "f2b"}}, {{"id", "b2f"}}}}});
+    EXPECT_EQ(m_reports.list({.q = "a", .limit = 1}).count, 3);
+    EXPECT_EQ(m_reports.list({.q = "topi"}).count, 1);
     EXPECT_EQ(titles({.q = "ALPHA"}), (Titles{"Alpha 100%"}));
     EXPECT_EQ(titles({.q = "topi"}), (Titles{"beta"}));
     EXPECT_EQ(titles({.q = "0%"}), (Titles{"Alpha 100%"}));
@@ -94,9 +102,9 @@ TEST_F(ArchiveTest, TheListIsFiltered) {
     EXPECT_EQ(titles({.q = "' OR 1 --"}), Titles{});
 }
 
-TEST_F(ArchiveTest, ALineOfTheListSaysWhatTheReportIsAbout) {
+TEST_P(ArchiveTest, ALineOfTheListSaysWhatTheReportIsAbout) {
     make_done("done", "picture");
-    const ReportSummary line = m_store.list({}).reports.at(0);
+    const ReportSummary line = m_reports.list({}).reports.at(0);
     EXPECT_EQ(line.scene, "quads");
     EXPECT_EQ(line.methods, (Titles{"b2f"}));
     EXPECT_EQ(line.verdict, "passed");
@@ -104,66 +112,68 @@ TEST_F(ArchiveTest, ALineOfTheListSaysWhatTheReportIsAbout) {
     EXPECT_EQ(line.finished_ms, m_now_ms);
 }
 
-TEST_F(ArchiveTest, APictureIsDeletedWithTheLastReportThatNamesIt) {
+TEST_P(ArchiveTest, APictureIsDeletedWithTheLastReportThatNamesIt) {
     const std::string first = make_done("first", "shared"), second = make_done("second", "shared");
     const std::string sha256 = sha256_hex("shared");
-    ASSERT_TRUE(m_store.find_blob(sha256));
-    EXPECT_EQ(m_store.remove(first), RemoveResult::deleted);
-    EXPECT_FALSE(m_store.find(first));
-    ASSERT_TRUE(m_store.find_blob(sha256));
-    EXPECT_EQ(read_file(m_store.find_blob(sha256)->path, 100), "shared");
-    EXPECT_EQ(m_store.remove(second), RemoveResult::deleted);
-    EXPECT_FALSE(m_store.find_blob(sha256));
-    EXPECT_EQ(TemporaryFolder::count_files(m_folder.path() / "data" / "blobs"), 0);
-    EXPECT_EQ(m_store.remove(second), RemoveResult::not_found);
+    ASSERT_TRUE(m_blobs.open(sha256));
+    EXPECT_EQ(m_reports.remove(first), Removal::deleted);
+    EXPECT_FALSE(m_reports.find(first));
+    ASSERT_TRUE(m_blobs.open(sha256));
+    EXPECT_EQ(picture(sha256), "shared");
+    EXPECT_EQ(m_reports.remove(second), Removal::deleted);
+    EXPECT_FALSE(m_blobs.open(sha256));
+    EXPECT_EQ(m_reports.remove(second), Removal::not_found);
 }
 
-TEST_F(ArchiveTest, AFinalReportCannotBeChanged) {
-    const std::string id = make_done("done", "picture");
-    SQLite::Database database((m_folder.path() / "data" / "archive.sqlite").string(), SQLite::OPEN_READWRITE);
-    EXPECT_THROW(database.exec("UPDATE reports SET report = '{}'"), SQLite::Exception);
-    EXPECT_THROW(database.exec("UPDATE reports SET status = 'queued', finished_ms = NULL, report = NULL"),
-                 SQLite::Exception);
-    EXPECT_EQ(json::parse(m_store.find(id)->report)["verdict"], "passed");
-}
-
-TEST_F(ArchiveTest, WhatWasStoredIsThereForTheNextProcess) {
+TEST_P(ArchiveTest, StoredDataIsThereForTheNextProcess) {
     const std::string done = make_done("done", "picture"), queued = submit("queued");
-    SqliteStore next(m_folder.path() / "data", m_rules, m_clock);
-    EXPECT_EQ(next.find(done)->status, Status::done);
-    EXPECT_EQ(next.find(done)->report, m_store.find(done)->report);
-    EXPECT_EQ(next.lease("other")->id, queued);
+    const auto next = m_place->open(m_rules, m_clock);
+    EXPECT_EQ(next->reports().find(done)->status, Status::done);
+    EXPECT_EQ(next->reports().find(done)->report, m_reports.find(done)->report);
+    EXPECT_EQ(next->queue().lease("other")->id, queued);
 }
 
-TEST_F(ArchiveTest, ChangesOfOthersAreNoticed) {
-    SqliteStore other(m_folder.path() / "data", m_rules, m_clock);
-    const std::int64_t before = m_store.change_counter();
-    EXPECT_EQ(m_store.change_counter(), before);
-    other.note_rendered();
-    const std::int64_t after = m_store.change_counter();
-    EXPECT_NE(after, before);
+TEST_P(ArchiveTest, ChangesByOtherProcessesAreNoticed) {
+    const auto other = m_place->open(m_rules, m_clock);
+    const auto watch = m_store.watch();
+    EXPECT_FALSE(watch->wait(10ms));
+    other->readiness().note_rendered();
+    EXPECT_TRUE(watch->wait(5s));
+    EXPECT_FALSE(watch->wait(10ms));
     submit("own changes as well");
-    EXPECT_NE(m_store.change_counter(), after);
+    EXPECT_TRUE(watch->wait(5s));
+    std::thread writer([&] {
+        std::this_thread::sleep_for(20ms);
+        other->readiness().note_rendered();
+    });
+    EXPECT_TRUE(watch->wait(5s));
+    writer.join();
 }
 
-TEST_F(ArchiveTest, AnArchiveOfALaterVersionIsLeftAlone) {
-    const std::filesystem::path folder = m_folder.path() / "later";
-    std::filesystem::create_directories(folder);
-    {
-        SQLite::Database database((folder / "archive.sqlite").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-        database.exec("PRAGMA user_version = 99");
+TEST_P(ArchiveTest, APictureThatIsOpenStaysReadable) {
+    const std::string id = make_done("done", "a picture");
+    const Blob blob = m_blobs.open(sha256_hex("a picture")).value();
+    EXPECT_EQ(m_reports.remove(id), Removal::deleted);
+    EXPECT_EQ(blob.media_type, "image/png");
+    EXPECT_EQ(blob.content->size_bytes(), 9u);
+    std::string part(7, ' ');
+    blob.content->read(2, part);
+    EXPECT_EQ(part, "picture");
+    EXPECT_THROW(blob.content->read(3, part), StoreError);
+    EXPECT_THROW(read_all(*blob.content, 8), StoreError);
+    EXPECT_EQ(read_all(*blob.content, 9), "a picture");
+}
+
+TEST_P(ArchiveTest, NamesThatAreNotHashesFindNothing) {
+    for (const char* name : {"", "../../etc/passwd", "ab"}) {
+        EXPECT_FALSE(m_blobs.open(name));
+        EXPECT_FALSE(m_assets.open(name));
+        EXPECT_FALSE(m_assets.find(name));
+        EXPECT_EQ(m_assets.remove(name), Assets::Removal::not_found);
     }
-    EXPECT_THROW(SqliteStore(folder, m_rules, m_clock), StoreError);
-    SQLite::Database database((folder / "archive.sqlite").string());
-    EXPECT_FALSE(database.tableExists("reports"));
 }
 
-TEST_F(ArchiveTest, AFileThatIsNoDatabaseIsAnError) {
-    const TemporaryFolder folder;
-    folder.file("archive.sqlite", std::string(4096, 'x'));
-    EXPECT_THROW(SqliteStore(folder.path(), m_rules, m_clock), StoreError);
-    EXPECT_THROW(SqliteStore(folder.file("file", ""), m_rules, m_clock), StoreError);
-}
+INSTANTIATE_TEST_SUITE_P(Stores, ArchiveTest, every_store, store_name);
 
 TEST(ReportIds, GrowEvenIfTheClockDoesNot) {
     std::int64_t now_ms = 5;
@@ -180,12 +190,12 @@ TEST(ReportIds, GrowEvenIfTheClockDoesNot) {
     }
 }
 
-TEST(ReportIds, AreUnlikeEachOtherBeyondTheTime) {
+TEST(ReportIds, DifferBeyondTheTime) {
     ReportIds ids([] { return 5; });
     EXPECT_NE(ids.next().substr(19), ids.next().substr(19));
 }
 
-TEST(ReportIds, OtherTextsAreNone) {
+TEST(ReportIds, OtherTextsAreNotIds) {
     EXPECT_FALSE(is_report_id(""));
     EXPECT_FALSE(is_report_id("../../../../../../../../etc/passwd-x"));
     EXPECT_FALSE(is_report_id("01900000-0000-7000-8000-00000000000G"));

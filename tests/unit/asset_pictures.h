@@ -8,8 +8,8 @@
 
 namespace sheer {
 
-/// A picture file that OpenImageIO writes: `format` is "png", "jpeg" or "openexr", `values` have `channels` a pixel.
-/// Colours are stored as given, whatever the alpha.
+/// A picture file written by OpenImageIO: `format` is "png", "jpeg" or "openexr", `values` have `channels` per pixel.
+/// Colors are stored as given, regardless of alpha.
 template <typename Value>
 std::string encode_picture(const std::string& format, int width_px, int height_px, int channels,
                            const std::vector<Value>& values, int tile_px = 0) {
@@ -28,7 +28,7 @@ std::string encode_picture(const std::string& format, int width_px, int height_p
     return {bytes.begin(), bytes.end()};
 }
 
-/// Pixels that do not compress, so that a file cut off anywhere lacks some.
+/// Incompressible pixels, so that a truncated file always lacks some.
 inline std::vector<std::uint8_t> noise(std::size_t count) {
     std::vector<std::uint8_t> values(count);
     std::uint32_t state = 1;
@@ -43,7 +43,7 @@ inline void put_u32_big(std::string& bytes, std::size_t at, std::uint32_t value)
     for (int i = 0; i < 4; ++i) bytes[at + static_cast<std::size_t>(i)] = static_cast<char>(value >> (24 - 8 * i));
 }
 
-/// A whole PNG with a right checksum, whose header claims another size than its data has.
+/// A complete PNG with a correct checksum, whose header has a different size than its data.
 inline std::string with_png_size(std::string png, std::uint32_t width, std::uint32_t height) {
     put_u32_big(png, 16, width);
     put_u32_big(png, 20, height);

@@ -6,7 +6,7 @@
 #include "renderer/assets/file_assets.h"
 #include "renderer/assets/picture_file.h"
 #include "renderer/assets/scaler.h"
-#include "renderer/sha256.h"
+#include "renderer/core/sha256.h"
 #include "tests/unit/asset_pictures.h"
 #include "tests/unit/temporary_folder.h"
 
@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
-/// The reason why `work` refuses; "" if it does not.
+/// The reason for which `work` refuses; "" if it does not.
 template <typename Work>
 std::string refusal(const Work& work) {
     try {
@@ -51,18 +51,18 @@ Image image_of(int width, int height, std::vector<float> rgba) {
     return image;
 }
 
-TEST(Scaler, WeightsColoursByAlpha) {
-    // Opaque red, half green, transparent blue twice: alpha (1 + 0.5) / 4, colours (1, 0.5, 0) / 1.5.
+TEST(Scaler, WeightsColorsByAlpha) {
+    // Opaque red, half green, transparent blue twice: alpha (1 + 0.5) / 4, colors (1, 0.5, 0) / 1.5.
     const Image source = image_of(2, 2, {1, 0, 0, 1, 0, 1, 0, 0.5, 0, 0, 1, 0, 0, 0, 1, 0});
     expect_pixel(scaled(source, 1, 1), 0, 0, {1 / 1.5f, 0.5f / 1.5f, 0, 0.375f});
 }
 
-TEST(Scaler, KeepsAColourUnderAnAlphaOfZero) {
+TEST(Scaler, KeepsAColorWithAnAlphaOfZero) {
     const Image source = image_of(2, 1, {1, 0, 0, 0, 0, 1, 0, 0});
     expect_pixel(scaled(source, 1, 1), 0, 0, {0.5f, 0.5f, 0, 0});
 }
 
-TEST(Scaler, AveragesWhatATargetPixelCovers) {
+TEST(Scaler, AveragesTheAreaOfATargetPixel) {
     // Three pixels to two: the first covers pixel 0 and half of pixel 1, so (0 + 0.5 * 0.3) / 1.5 = 0.1.
     const Image source = image_of(3, 1, {0, 0, 0, 1, 0.3f, 0, 0, 1, 0.9f, 0, 0, 1});
     const Image result = scaled(source, 2, 1);
@@ -71,9 +71,9 @@ TEST(Scaler, AveragesWhatATargetPixelCovers) {
 }
 
 TEST(Scaler, GrowsByCatmullRom) {
-    // Two pixels to four: centres at -0.25, 0.25, 0.75, 1.25. At 0.25 the weights of pixels -1, 0, 1, 2 are -0.0703125,
-    // 0.8671875, 0.2265625, -0.0234375; the outermost pixels go on, so pixel 1 weighs 0.203125. At -0.25 the pixels
-    // -2, -1, 0 are the first one and pixel 1 weighs -0.0703125: under 0, and so 0.
+    // Two pixels to four: centers at -0.25, 0.25, 0.75, 1.25. At 0.25 the weights of pixels -1, 0, 1, 2 are -0.0703125,
+    // 0.8671875, 0.2265625, -0.0234375; the outermost pixels are repeated, so pixel 1 has the weight 0.203125. At -0.25
+    // the pixels -2, -1, 0 are the first one and pixel 1 has the weight -0.0703125: under 0, and so 0.
     const Image source = image_of(2, 1, {0, 0, 0, 1, 1, 0, 0, 1});
     const Image result = scaled(source, 4, 1);
     expect_pixel(result, 0, 0, {0, 0, 0, 1});
@@ -82,7 +82,7 @@ TEST(Scaler, GrowsByCatmullRom) {
     expect_pixel(result, 3, 0, {1.0703125f, 0, 0, 1});
 }
 
-TEST(Scaler, LeavesAPictureOfTheSameSizeAsItIs) {
+TEST(Scaler, LeavesAPictureOfTheSameSizeUnchanged) {
     const Image source = image_of(2, 2, {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 1, 7, 0, 0, 0, 0, 9, 0, 0.01f});
     const Image result = scaled(source, 2, 2);
     for (std::size_t i = 0; i < source.rgba.size(); ++i) EXPECT_FLOAT_EQ(result.rgba[i], source.rgba[i]) << i;
@@ -100,7 +100,7 @@ TEST(ReadPicture, KeepsThePixelsOfAPng) {
     expect_pixel(picture.image, 1, 1, {10 / 255.0f, 20 / 255.0f, 30 / 255.0f, 1});
 }
 
-TEST(ReadPicture, TakesGreyAndRgb) {
+TEST(ReadPicture, AcceptsGrayAndRgb) {
     const std::string grey = encode_picture<std::uint8_t>("png", 2, 1, 1, {51, 204});
     expect_pixel(read_picture(grey, 2, 1).image, 1, 0, {0.8f, 0.8f, 0.8f, 1});
     const std::string grey_alpha = encode_picture<std::uint8_t>("png", 1, 1, 2, {51, 102});
@@ -116,7 +116,7 @@ TEST(ReadPicture, KeepsSixteenBits) {
     expect_pixel(picture.image, 0, 0, {1 / 65535.0f, 256 / 65535.0f, 1, 1});
 }
 
-TEST(ReadPicture, DividesTheColoursOfAnExrByTheirAlpha) {
+TEST(ReadPicture, DividesTheColorsOfAnExrByTheirAlpha) {
     const std::vector<float> premultiplied = {2, 0.5f, 0, 0.5f, 3, 0, 0, 0};
     for (const int tile_px : {0, 16}) {
         const Picture picture = read_picture(encode_picture<float>("openexr", 2, 1, 4, premultiplied, tile_px), 2, 1);
@@ -126,10 +126,10 @@ TEST(ReadPicture, DividesTheColoursOfAnExrByTheirAlpha) {
     }
 }
 
-TEST(ReadPicture, KeepsColoursWithinWhatATextureHolds) {
+TEST(ReadPicture, ClampsColorsToTheRangeOfATexture) {
     const Picture bright = read_picture(encode_picture<float>("openexr", 1, 1, 3, {1e30f, -1, 2}), 1, 1);
     expect_pixel(bright.image, 0, 0, {65504, 0, 2, 1});
-    // Growing overshoots behind an edge; see Scaler.GrowsByCatmullRom.
+    // Enlarging overshoots beside an edge; see Scaler.GrowsByCatmullRom.
     const Picture edge = read_picture(encode_picture<std::uint8_t>("png", 2, 1, 3, {0, 0, 0, 255, 255, 255}), 4, 1);
     expect_pixel(edge.image, 3, 0, {1, 1, 1, 1});
 }
@@ -145,8 +145,8 @@ TEST(ReadPicture, ReadsAJpeg) {
     EXPECT_FLOAT_EQ(picture.image.rgba[3], 1);
 }
 
-// The decoder takes minutes for such a claim, or the process with it.
-TEST(ReadPicture, RefusesAClaimOfPixelsAtOnce) {
+// With such a size the decoder takes minutes, or crashes.
+TEST(ReadPicture, RefusesAHugeSizeAtOnce) {
     const std::string small = encode_picture<std::uint8_t>("png", 16, 16, 4, noise(16 * 16 * 4));
     ASSERT_LT(small.size(), 1200u);
     EXPECT_THAT(read_refusal(with_png_size(small, 60000, 60000)), HasSubstr("60000 x 60000"));
@@ -190,7 +190,7 @@ TEST(ReadPicture, RefusesDamageInside) {
 TEST(ReadPicture, RefusesOtherFormats) {
     for (const std::string& bytes : {std::string("GIF89a"), std::string("II*\0", 4), std::string("P6 1 1 255 abc"),
                                      std::string("x"), std::string("<svg/>")})
-        EXPECT_THAT(read_refusal(bytes), HasSubstr("no PNG, JPEG or OpenEXR"));
+        EXPECT_THAT(read_refusal(bytes), HasSubstr("not a PNG, JPEG, OpenEXR"));
 }
 
 TEST(ReadPicture, RefusesPixelsThatAreNotFinite) {
@@ -212,19 +212,19 @@ class AssetFiles : public ::testing::Test {
     const std::string m_png = encode_picture<std::uint8_t>("png", 3, 2, 4, noise(3 * 2 * 4));
 };
 
-TEST_F(AssetFiles, AreCheckedByWhatTheyAreSaidToBe) {
+TEST_F(AssetFiles, AreCheckedByTheirDeclaredType) {
     const auto png = m_folder.file("a", m_png);
     EXPECT_EQ(check_asset(png, "image/png"),
               (json{{"width", 3}, {"height", 2}, {"channels", 4}, {"notes", json::array()}}));
     EXPECT_THAT(refusal([&] { check_asset(png, "image/jpeg"); }), HasSubstr("is a PNG, not a JPEG"));
-    EXPECT_THAT(refusal([&] { check_asset(png, "image/gif"); }), HasSubstr("image/gif are not taken"));
+    EXPECT_THAT(refusal([&] { check_asset(png, "image/gif"); }), HasSubstr("image/gif are not accepted"));
     EXPECT_THAT(refusal([&] { check_asset(m_folder.file("empty", ""), "image/png"); }), HasSubstr("empty"));
     EXPECT_THAT(refusal([&] { check_asset(m_folder.path() / "none", "image/png"); }), HasSubstr("cannot be read"));
     const auto exr = m_folder.file("b", encode_picture<float>("openexr", 1, 1, 1, {1}));
     EXPECT_EQ(check_asset(exr, "image/x-exr")["channels"], 1);
 }
 
-TEST(AssetKinds, SayAllThatAFormNeeds) {
+TEST(AssetKinds, HaveEverythingThatAFormNeeds) {
     for (const AssetKind& kind : asset_kinds()) {
         EXPECT_EQ(find_asset_kind(kind.media_type), &kind);
         EXPECT_THAT(kind.type, AnyOf("texture", "model", "volume"));
@@ -265,7 +265,7 @@ TEST_F(AssetFiles, AreKnownByTheirHashesOnceTheyAreRead) {
     assets.model("models/one.gltf");
     assets.picture("leaf.png", 2, 2);
     assets.picture("leaf.png", 4, 4);
-    // The hash of 36 zero bytes is coreutils' sha256sum's.
+    // The hash of 36 zero bytes comes from coreutils' sha256sum.
     const std::string zeros = "6db65fd59fd356f6729140571b5bcd6bb3b83492a16e1bf0a3884442fc3c8a0e";
     const std::vector<AssetFile> expected = {
         {"models/one.gltf", "", sha256_hex(document.dump()), document.dump().size()},
@@ -275,7 +275,7 @@ TEST_F(AssetFiles, AreKnownByTheirHashesOnceTheyAreRead) {
 
     m_folder.file("leaf.png", encode_picture<std::uint8_t>("png", 1, 1, 1, {7}));
     assets.picture("leaf.png", 2, 2);
-    ASSERT_EQ(assets.files().size(), 3u) << "as it was read last";
+    ASSERT_EQ(assets.files().size(), 3u) << "as they were last read";
     EXPECT_NE(assets.files()[2].sha256, expected[2].sha256);
 }
 

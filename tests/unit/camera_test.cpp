@@ -1,4 +1,5 @@
 #include "renderer/scene/camera.h"
+#include "renderer/spec/spec.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ glm::dvec3 project(const Camera& camera, const Planes& planes, double aspect, co
     return glm::dvec3(clip) / clip.w;
 }
 
-/// From 4 before the origin, where a right angle sees 4 up and 4 down.
+/// From 4 in front of the origin, with a right angle, which sees 4 up and 4 down there.
 TEST(Camera, ProjectsByHand) {
     const Camera camera{{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 90};
     const Planes planes{2, 6};
@@ -33,13 +34,13 @@ TEST(Camera, ProjectsByHand) {
 }
 
 TEST(Camera, SeesFromAnySide) {
-    // From the right: what is before the scene is on the left of the picture.
+    // From the right: things in front of the scene are on the left of the picture.
     const Camera camera{{5, 0, 0}, {0, 0, 0}, {0, 1, 0}, 60};
     EXPECT_LT(project(camera, {3, 7}, 1, {0, 0, 1}).x, 0);
     EXPECT_GT(project(camera, {3, 7}, 1, {0, 1, 0}).y, 0);
 }
 
-/// A square of half a side `size` that looks along z, for what lies in a view.
+/// A square with half side `size`, facing along z, as an object in the view.
 void add_square(Geometry& geometry, const glm::vec3& centre, float size) {
     const auto first = static_cast<std::uint32_t>(geometry.vertices.size());
     for (const glm::vec2 corner : {glm::vec2{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
@@ -54,9 +55,8 @@ Planes planes_of(const Geometry& geometry) {
     return planes_of_view(geometry, right_angle.view(), 90, 1);
 }
 
-/// What is near is not cut off, however far the farthest is; what lies beside the view or behind the eye does not
-/// count.
-TEST(Camera, PlanesHugWhatLiesInTheView) {
+/// Near objects are not cut off, however far the farthest is; objects beside the view or behind the eye do not count.
+TEST(Camera, PlanesEncloseTheVisibleScene) {
     Geometry geometry;
     add_square(geometry, {0, 0, -2}, 1);
     add_square(geometry, {0, 0, -1e5f}, 1000);
@@ -69,9 +69,8 @@ TEST(Camera, PlanesHugWhatLiesInTheView) {
     EXPECT_GT(planes.far, 1e5);
 }
 
-/// A floor 1 below the eye that reaches from far behind it to 1000 ahead: the lower edge of a right angle meets it
-/// at 1.
-TEST(Camera, PlanesOfWhatIsCutByTheView) {
+/// A floor 1 below the eye, from far behind it to 1000 ahead: the lower edge of a right angle meets it at 1.
+TEST(Camera, PlanesOfObjectsCutByTheView) {
     Geometry geometry;
     for (const glm::vec3 corner : {glm::vec3{-500, -1, 1000}, {500, -1, 1000}, {0, -1, -1000}})
         geometry.vertices.push_back({corner, {}, {}, 0});
@@ -79,15 +78,15 @@ TEST(Camera, PlanesOfWhatIsCutByTheView) {
     const Planes planes = planes_of(geometry);
     EXPECT_NEAR(planes.near, 1, 0.001);
     EXPECT_NEAR(planes.far, 1000, 1);
-    // Through the eye there is no nearest point: the near plane stays a millionth of the far one's distance away.
+    // A plane through the eye has no nearest point: the near plane stays at a millionth of the far one's distance.
     for (Vertex& vertex : geometry.vertices) vertex.position.y = 0;
     EXPECT_NEAR(planes_of(geometry).near, planes_of(geometry).far * 1e-6, 1e-9);
     EXPECT_LT(planes_of({}).near, planes_of({}).far);
 }
 
-/// At Web Mercator coordinates, and with the smallest and largest scenes that floats hold, points lie as near the
-/// origin.
-TEST(Camera, PointsLieTheSameFarAwayAndAtAnyScale) {
+/// At Web Mercator coordinates, and in the smallest and largest scenes that floats can represent, distances are the
+/// same as near the origin.
+TEST(Camera, ProjectionIsTheSameFarAwayAndAtAnyScale) {
     const auto clip = [](const glm::dvec3& origin, float scale) {
         Geometry geometry;
         add_square(geometry, glm::vec3(scale, scale / 2, 0), scale);
@@ -139,7 +138,7 @@ TEST(Camera, BoundsHoldTheVertices) {
     EXPECT_NEAR(sphere.radius, 3, 1e-12);
 }
 
-/// Two quads, at 3 and at 5 ahead; off the line of sight it is the depth that counts, not the distance.
+/// Two quads, 3 and 5 ahead; off the line of sight, the depth counts, not the distance.
 TEST(Camera, GivesPrimitivesTheirDepth) {
     Geometry geometry;
     geometry.add_rect(0, 0, 1, 1, 1, glm::vec4(1), false);  // z = 1
@@ -192,11 +191,11 @@ TEST(Camera, WrongFieldsAreNamedWithTheOthers) {
     EXPECT_THAT(wrong_fields("front"), ElementsAre("/scene/camera"));
     EXPECT_THAT(wrong_fields({{"eye", {0, 9, 0}}, {"target", {0, 1, 0}}}, "foliage", -1),
                 testing::UnorderedElementsAre("/scene/seed", "/scene/camera/up"));
-    // A wrong eye stands as the default until it is put right: no second error may follow from that.
+    // A wrong eye is replaced by the default: no second error may follow from that.
     EXPECT_THAT(wrong_fields({{"eye", "x"}, {"target", {4, 3, 6}}}), ElementsAre("/scene/camera/eye"));
 }
 
-TEST(Camera, IsNullOrWholeInTheNormalisedSpec) {
+TEST(Camera, IsNullOrCompleteInTheNormalisedSpec) {
     const auto normalised = [](const json& scene) {
         return parse_spec({{"scene", scene}, {"methods", {"b2f"}}}).scene.at("camera");
     };
@@ -206,7 +205,7 @@ TEST(Camera, IsNullOrWholeInTheNormalisedSpec) {
         json({{"eye", {0.0, 1.0, 9.0}}, {"target", {0.0, 1.5, 0.0}}, {"up", {0.0, 1.0, 0.0}}, {"fov_y_deg", 40.0}}));
 }
 
-/// What a scene was framed by can be written into the spec, and shows the same picture.
+/// The camera that framed a scene can be written into the spec, and gives the same picture.
 TEST(Camera, OfAGeometryGivesTheSamePictureAgain) {
     for (const std::string type : {"foliage", "particles"}) {
         json document = {{"scene", {{"type", type}, {"seed", 3}}}, {"methods", {"b2f"}}};

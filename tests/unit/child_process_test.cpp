@@ -6,10 +6,10 @@
 
 #include <thread>
 
-#include "server/worker/child_message.h"
-#include "server/worker/devices.h"
-#include "server/worker/run_child.h"
-#include "server/worker/stop_signal.h"
+#include "server/children/device_list.h"
+#include "server/process/child_message.h"
+#include "server/process/run_child.h"
+#include "server/process/stop_signal.h"
 #include "temporary_folder.h"
 
 namespace sheer::test::child_process_test {
@@ -36,7 +36,7 @@ Ran run_shell(const std::string& script, std::chrono::milliseconds time_limit = 
     return ran;
 }
 
-/// Whether the process is gone or only waits to be reaped.
+/// Whether the process has ended, reaped or not.
 bool is_dead(pid_t pid) {
     std::ifstream stat(fmt::format("/proc/{}/stat", pid));
     std::string number, name, state;
@@ -48,19 +48,19 @@ bool dies_soon(pid_t pid) {
     return is_dead(pid);
 }
 
-TEST(RunChild, GivesItsLinesAndItsExitCode) {
+TEST(RunChild, ReturnsItsLinesAndItsExitCode) {
     const Ran ran = run_shell("echo one; echo two; exit 3");
     EXPECT_EQ(ran.result.status.code, 3);
     EXPECT_EQ(ran.result.status.signal, 0);
     EXPECT_THAT(ran.lines, ElementsAre("one", "two"));
 }
 
-TEST(RunChild, TellsASignal) {
+TEST(RunChild, ReportsASignal) {
     EXPECT_EQ(run_shell("kill -SEGV $$").result.status.signal, SIGSEGV);
     EXPECT_EQ(run_shell("kill -KILL $$").result.status.code, -1);
 }
 
-TEST(RunChild, AProgramThatIsNotThereEndsWith127) {
+TEST(RunChild, AMissingProgramEndsWith127) {
     ChildRun run;
     run.options.program = "/nonexistent/program";
     run.time_limit = 10s;
@@ -108,11 +108,10 @@ TEST(RunChild, InheritsNoFiles) {
     EXPECT_THAT(ran.lines, ElementsAre("closed"));
 }
 
-#ifndef __SANITIZE_ADDRESS__
 TEST(RunChild, LimitsItsMemory) {
+    if (!limits_memory()) GTEST_SKIP() << "not with AddressSanitizer";
     EXPECT_THAT(run_shell("ulimit -v", 20s, nullptr, 64 << 20).lines, ElementsAre("65536"));
 }
-#endif
 
 TEST(RunChild, DiesWithTheThreadThatStartedIt) {
     pid_t pid = 0;
@@ -127,7 +126,7 @@ TEST(RunChild, DiesWithTheThreadThatStartedIt) {
     EXPECT_EQ(child->wait().signal, SIGKILL);
 }
 
-TEST(LineReaderTest, JoinsWhatComesInPieces) {
+TEST(LineReaderTest, JoinsPiecesOfALine) {
     LineReader reader(10);
     EXPECT_THAT(reader.feed("ab"), IsEmpty());
     EXPECT_THAT(reader.feed("c\nde\n\nf"), ElementsAre("abc", "de", ""));
@@ -160,7 +159,7 @@ TEST(ChildMessageTest, Errors) {
               "Rendering failed");
 }
 
-TEST(ChildMessageTest, AnythingElseIsNothing) {
+TEST(ChildMessageTest, AnythingElseIsIgnored) {
     for (const char* line : {"", "libEGL warning", "[]", "5", "{", "{}", R"({"progress": "x"})", R"({"error": "x"})"})
         EXPECT_TRUE(std::holds_alternative<std::monostate>(read_child_message(line))) << line;
 }
@@ -175,7 +174,7 @@ TEST(ChildMessageTest, LongTextsAreCutBetweenCharacters) {
     EXPECT_NO_THROW(nlohmann::json(cut).dump());
 }
 
-TEST(DeviceListTest, AsksOnceInAWhile) {
+TEST(DeviceListTest, IsCached) {
     const TemporaryFolder folder;
     const auto script =
         folder.file("devices", "#!/bin/sh\necho x >> " + (folder.path() / "asked").string() +

@@ -1,9 +1,10 @@
-// An archive that is not what it was: what is lost is said, and the rest is there.
+// A damaged archive: losses are reported, and the rest is available.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
 
+#include "server/archive/content_folder.h"
 #include "server/archive/sqlite_open.h"
 #include "server/http/application.h"
 #include "server/http/service.h"
@@ -24,7 +25,7 @@ void flip_bit(const fs::path& file, std::size_t at) {
     stream.put(byte);
 }
 
-class DamagedFilesTest : public StoreTest {
+class DamagedFilesTest : public WithSqlite {
   protected:
     DamagedFilesTest() { m_service.clock = m_clock; }
 
@@ -38,7 +39,10 @@ class DamagedFilesTest : public StoreTest {
         return json::parse(std::get<std::string>(response.body))["detail"];
     }
 
-    fs::path blob(const std::string& picture) { return blob_path(m_folder.path() / "data/blobs", sha256_hex(picture)); }
+    static fs::path file_in(const fs::path& folder, const std::string& bytes) {
+        return ContentFolder(folder).find(sha256_hex(bytes)).value();
+    }
+    fs::path blob(const std::string& bytes) const { return file_in(m_data.blobs(), bytes); }
 
     http::Service m_service{.store = m_store, .ids = m_ids, .clock = {}, .list_devices = {}};
     const http::Application m_application{http::make_guard(true, {}), http::make_router(m_service)};
@@ -57,13 +61,13 @@ TEST_F(DamagedFilesTest, APictureWithOtherBytesIsNotServed) {
         EXPECT_FALSE(damaged.headers.contains("ETag"));
         EXPECT_THAT(detail(damaged), HasSubstr(sha256));
     }
-    EXPECT_THROW(m_store.find_blob(sha256), DamagedFile);
-    // The time of a file says nothing of its bytes.
+    EXPECT_THROW(m_blobs.open(sha256), DamagedData);
+    // The time of a file says nothing about its bytes.
     flip_bit(blob("the picture"), 3);
     EXPECT_EQ(get(url).status, 200);
 }
 
-TEST_F(DamagedFilesTest, APictureThatIsCutOrGoneIsNotServed) {
+TEST_F(DamagedFilesTest, ATruncatedOrMissingPictureIsNotServed) {
     make_done("title", "the picture");
     const std::string url = "/api/v1/blobs/" + sha256_hex("the picture");
     fs::resize_file(blob("the picture"), 4);
@@ -71,9 +75,10 @@ TEST_F(DamagedFilesTest, APictureThatIsCutOrGoneIsNotServed) {
     fs::remove(blob("the picture"));
     EXPECT_EQ(get(url).status, 500);
     EXPECT_THAT(detail(get(url)), HasSubstr("missing"));
+    EXPECT_THAT(detail(get(url)), testing::Not(HasSubstr(m_folder.path().string())));
 }
 
-TEST_F(DamagedFilesTest, TheSamePictureAgainRepairsIt) {
+TEST_F(DamagedFilesTest, StoringTheSamePictureAgainRepairsIt) {
     make_done("first", "the picture");
     const std::string url = "/api/v1/blobs/" + sha256_hex("the picture");
     flip_bit(blob("the picture"), 0);
@@ -84,31 +89,31 @@ TEST_F(DamagedFilesTest, TheSamePictureAgainRepairsIt) {
     EXPECT_EQ(get(url).status, 200);
 }
 
-TEST_F(DamagedFilesTest, AnUploadIsHeldToItsHashToo) {
+TEST_F(DamagedFilesTest, UploadsAreComparedWithTheirHashesToo) {
     const std::string bytes = "pixels", sha256 = sha256_hex(bytes), url = "/api/v1/assets/" + sha256;
     Asset asset{.sha256 = sha256, .type = "texture", .media_type = "image/png"};
     asset.facts = json::object();
-    m_store.add_asset(asset, bytes);
-    const fs::path file = blob_path(m_folder.path() / "data/assets", sha256);
+    m_assets.add(asset, bytes);
+    const fs::path file = file_in(m_data.assets(), bytes);
     flip_bit(file, 2);
     EXPECT_EQ(get(url).status, 500);
-    m_store.add_asset(asset, bytes);
+    m_assets.add(asset, bytes);
     EXPECT_EQ(get(url).status, 200);
     fs::remove(file);
     EXPECT_EQ(get(url).status, 500);
     const http::Response list = get("/api/v1/assets");
     EXPECT_EQ(list.status, 200);
     EXPECT_THAT(json::parse(std::get<std::string>(list.body))["assets"][0]["broken"], "its file is missing");
-    EXPECT_EQ(m_store.remove_asset(sha256), RemoveAssetResult::removed);
+    EXPECT_EQ(m_assets.remove(sha256), Assets::Removal::removed);
 }
 
-TEST_F(DamagedFilesTest, ARowThatIsBrokenLeavesTheListWhole) {
+TEST_F(DamagedFilesTest, ABrokenRowLeavesTheRestOfTheList) {
     make_done("broken", "a");
     make_done("whole", "b");
     Asset asset{.sha256 = sha256_hex("c"), .type = "texture", .media_type = "image/png"};
     asset.facts = json::object();
-    m_store.add_asset(asset, "c");
-    SQLite::Database database((m_folder.path() / "data/archive.sqlite").string(), SQLite::OPEN_READWRITE);
+    m_assets.add(asset, "c");
+    SQLite::Database database(m_data.database().string(), SQLite::OPEN_READWRITE);
     database.exec("DROP TRIGGER reports_final");
     database.exec("UPDATE reports SET preview = '{\"sha', report = '{\"id\": ' WHERE title = 'broken'");
     database.exec("UPDATE assets SET facts = '[1'");
@@ -126,7 +131,22 @@ TEST_F(DamagedFilesTest, ARowThatIsBrokenLeavesTheListWhole) {
     ASSERT_EQ(get("/api/v1/assets").status, 200);
 }
 
-/// Folders in which a store is opened, or is not.
+TEST_F(DamagedFilesTest, ABrokenReportIsNamedWithItsError) {
+    const std::string whole = make_done("whole", "a");
+    submit("damaged");
+    const Lease job = lease();
+    FinishedReport damaged = finished(job, "b");
+    damaged.report["runs"][0]["results"] = 3;
+    ASSERT_TRUE(m_queue.commit(job, damaged));
+    for (const std::string& end :
+         {std::string("/report.html"), "/diff?against=" + whole, std::string("/pixel?x=0&y=0")}) {
+        const http::Response answer = get("/api/v1/reports/" + job.id + end);
+        EXPECT_EQ(answer.status, 500) << end;
+        EXPECT_THAT(detail(answer), HasSubstr(job.id + ": /runs/0/results must be an array, not 3"));
+    }
+}
+
+/// Folders in which a store can or cannot be opened.
 class OpeningTest : public testing::Test {
   protected:
     SqliteStore open() { return SqliteStore(m_data, {}, system_now_ms); }
@@ -145,11 +165,11 @@ class OpeningTest : public testing::Test {
         SqliteStore store = open();
         NewReport report{
             .id = "01900000-0000-7000-8000-000000000000", .spec = R"({"title": "kept"})", .spec_sha256 = "x"};
-        store.submit(report, 10);
-        const std::string sha256 = sha256_hex("picture");
+        store.queue().submit(report, 10);
         const FinishedReport finished{.report = {{"verdict", "none"}},
-                                      .blobs = {{sha256, "image/png", m_folder.file("picture", "picture")}}};
-        ASSERT_TRUE(store.commit(store.lease("worker").value(), finished));
+                                      .blobs = {{sha256_hex("picture"), "image/png"}},
+                                      .read_blob = [](const std::string&) { return "picture"; }};
+        ASSERT_TRUE(store.queue().commit(store.queue().lease("worker").value(), finished));
     }
 
     TemporaryFolder m_folder;
@@ -163,12 +183,12 @@ TEST_F(OpeningTest, AMissingDatabaseBesideItsPicturesIsAnError) {
     EXPECT_FALSE(fs::exists(m_file));
     std::ofstream(m_file).close();
     EXPECT_THAT(refusal(), testing::AllOf(HasSubstr(m_file.string()), HasSubstr("empty")));
-    // With nothing beside it, it is a folder to begin in.
+    // With nothing beside it, a new archive can begin here.
     fs::remove_all(m_data / "blobs");
     EXPECT_EQ(refusal(), "");
 }
 
-TEST_F(OpeningTest, ACutDatabaseIsAnError) {
+TEST_F(OpeningTest, ATruncatedDatabaseIsAnError) {
     fill();
     const std::uintmax_t size = fs::file_size(m_file);
     for (const std::uintmax_t left : {size - 4096, size / 2, std::uintmax_t{4096}, std::uintmax_t{50}}) {
@@ -206,31 +226,31 @@ TEST_F(OpeningTest, ADatabaseOfAnotherProgramIsLeftAlone) {
     EXPECT_THAT(refusal(), HasSubstr("another program"));
 }
 
-TEST_F(OpeningTest, OursIsKnownByItsIdAndOneOfBeforeByItsTables) {
+TEST_F(OpeningTest, OursIsRecognizedByItsIdAndAnOlderOneByItsTables) {
     fill();
     {
         SQLite::Database database(m_file.string(), SQLite::OPEN_READWRITE);
         EXPECT_EQ(database.execAndGet("PRAGMA application_id").getInt(), archive_application_id);
         database.exec("PRAGMA application_id = 0");
     }
-    EXPECT_EQ(open().list({}).reports.at(0).title, "kept");
+    EXPECT_EQ(open().reports().list({}).reports.at(0).title, "kept");
     SQLite::Database database(m_file.string(), SQLite::OPEN_READWRITE);
     EXPECT_EQ(database.execAndGet("PRAGMA application_id").getInt(), archive_application_id);
     database.exec("PRAGMA user_version = 99");
     EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("version 99"), HasSubstr(m_data.string())));
 }
 
-TEST_F(OpeningTest, ACopyOfTheDatabaseOfAStoreThatRestsHasAllReports) {
+TEST_F(OpeningTest, ACopyOfTheDatabaseOfAnIdleStoreHasAllReports) {
     SqliteStore store = open();
     NewReport report{.id = "01900000-0000-7000-8000-000000000000", .spec = R"({"title": "kept"})", .spec_sha256 = "x"};
-    store.submit(report, 10);
-    const FinishedReport finished{.report = {{"verdict", "none"}}, .blobs = {}};
-    ASSERT_TRUE(store.commit(store.lease("worker").value(), finished));
+    store.queue().submit(report, 10);
+    const FinishedReport finished{.report = {{"verdict", "none"}}};
+    ASSERT_TRUE(store.queue().commit(store.queue().lease("worker").value(), finished));
     fs::create_directories(m_folder.path() / "copy");
     fs::copy_file(m_file, m_folder.path() / "copy/archive.sqlite");
     SqliteStore copy(m_folder.path() / "copy", {}, system_now_ms);
-    ASSERT_EQ(copy.list({}).reports.size(), 1u);
-    EXPECT_EQ(copy.list({}).reports[0].status, Status::done);
+    ASSERT_EQ(copy.reports().list({}).reports.size(), 1u);
+    EXPECT_EQ(copy.reports().list({}).reports[0].status, Status::done);
 }
 
 }  // namespace

@@ -1,15 +1,17 @@
-// The committed documents against the descriptions that they are made from.
-#include "renderer/spec/documents.h"
+// Compares the committed documents with the descriptions from which they are made.
+#include "renderer/documents/documents.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
+#include "renderer/metrics/shared/metric.h"
 #include "renderer/scene/scene_info.h"
-#include "renderer/spec/litmus_page.h"
 #include "server/cli/service_config.h"
+#include "server/http/components.h"
+#include "tests/source_folder.h"
 
 namespace sheer::documents_test {
 
@@ -19,7 +21,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string root = SHEER_SOURCE_DIR;
+const std::string root = source_folder();
 
 std::string text_of_file(const std::string& path) {
     std::ifstream file(root + "/" + path, std::ios::binary);
@@ -30,7 +32,7 @@ std::string text_of_file(const std::string& path) {
 }
 
 std::vector<Document> all_documents() {
-    return make_documents(cli::service_config_fields(), json::parse(text_of_file("tests/render/litmus.json")));
+    return make_documents({cli::service_config_fields(), http::component_schemas()}, text_of_file);
 }
 
 std::string document(const std::string& path) {
@@ -40,7 +42,7 @@ std::string document(const std::string& path) {
     return "";
 }
 
-TEST(Documents, AreThoseOfTheSource) {
+TEST(Documents, MatchTheSource) {
     for (const Document& each : all_documents())
         EXPECT_TRUE(text_of_file(each.path) == each.text) << each.path << " is out of date: run ./dev docs";
 }
@@ -61,7 +63,70 @@ TEST(Documents, HaveEveryMethodSceneAndParameter) {
         EXPECT_THAT(configs, HasSubstr("| `/" + param.name + "` | "));
 }
 
-TEST(Documents, SayWhatASpecMustHave) {
+TEST(Documents, HaveEveryValueOfEveryMetric) {
+    const std::string page = document("docs/metrics.md");
+    for (const MetricInfo& metric : all_metrics()) {
+        EXPECT_THAT(page, HasSubstr("\n| `" + metric.id + "` | "));
+        EXPECT_THAT(page, HasSubstr(" | " + metric.good_for + " |\n"));
+        for (const MetricField& field : metric.fields)
+            EXPECT_THAT(page, HasSubstr("| `" + full_name(metric, field) + "` | " + field.summary + " |"));
+    }
+}
+
+TEST(Documents, HaveEveryTypeOfEveryAnswer) {
+    const std::string page = document("docs/report.md");
+    for (const auto& [name, schema] : http::component_schemas()) {
+        const std::size_t begin = page.find("\n### " + name + "\n");
+        ASSERT_NE(begin, std::string::npos) << name;
+        const std::string section = page.substr(begin, page.find("\n### ", begin + 1) - begin);
+        const json properties = schema.value("properties", json::object());
+        for (const auto& [field, property] : properties.items())
+            EXPECT_THAT(section, HasSubstr("\n| `" + field + "` | ")) << name;
+    }
+}
+
+TEST(Documents, TheSchemaOfAReportHasEverythingItRefersTo) {
+    const json schema = json::parse(document("configs/schema/report.schema.json"));
+    EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+    const json values = schema.flatten();
+    std::size_t references = 0;
+    for (const auto& [pointer, value] : values.items()) {
+        if (!pointer.ends_with("/$ref")) continue;
+        ++references;
+        EXPECT_TRUE(schema.contains(json::json_pointer(value.get<std::string>().substr(1)))) << pointer;
+    }
+    EXPECT_GT(references, 10u);
+}
+
+TEST(Documents, SectionsOfSchemas) {
+    const json one = {{"type", "object"},
+                      {"description", "a thing"},
+                      {"properties",
+                       {{"a", {{"$ref", "#/x/Two"}, {"description", "this | that"}}},
+                        {"b", {{"type", {"array", "null"}}, {"items", {{"type", "integer"}}}}},
+                        {"c", {{"enum", {"x", nullptr}}}}}},
+                      {"required", {"a"}}};
+    const Schemas schemas = {
+        {"One", one}, {"Two", {{"type", "object"}, {"additionalProperties", {{"$ref", "#/x/One"}}}}}, {"Zero", {}}};
+    EXPECT_EQ(names_from(schemas, "One"), (std::vector<std::string>{"One", "Two"}));
+    EXPECT_EQ(schema_sections(schemas, {"One", "Two"}),
+              "\n### One\nA thing.\n"
+              "\n| field | type | meaning |\n|---|---|---|\n"
+              "| `a` | [Two](#two) | this \\| that |\n"
+              "| `b` | array of whole number or null, or absent |  |\n"
+              "| `c` | `x` or null, or absent |  |\n"
+              "\n### Two\nIt is: object of [One](#one).\n");
+}
+
+TEST(Documents, APartIsWrittenBetweenItsMarksAndNothingElse) {
+    const std::string page = "# A\n<!-- begin one (made) -->\nold\nold\n<!-- end one -->\nB\n";
+    EXPECT_EQ(with_part(page, "one", "new\n"), "# A\n<!-- begin one (made) -->\nnew\n<!-- end one -->\nB\n");
+    EXPECT_EQ(with_part(with_part(page, "one", "new\n"), "one", "old\nold\n"), page);
+    EXPECT_THROW(with_part(page, "two", ""), std::runtime_error);
+    EXPECT_THROW(with_part("<!-- end one -->\n<!-- begin one -->\n", "one", ""), std::runtime_error);
+}
+
+TEST(Documents, NameTheRequiredFieldsOfASpec) {
     const std::string configs = document("configs/README.md");
     for (const std::string field : {"scene", "methods"}) {
         const std::size_t begin = configs.find("| `/" + field + "` | ");
@@ -74,7 +139,7 @@ TEST(Documents, SayWhatASpecMustHave) {
 }
 
 TEST(Documents, TableOfFields) {
-    Param eye = Param::numbers("eye", "where from", "m", {0, 0.5, 1}, -10, 10);
+    Param eye = Param::numbers("eye", "where from", "m", {0, 0.5, 1}, -10, 10).of({"x", "y", "z"});
     Param near = Param::number("near", "how near", "m", 0.25, 0, 1);
     near.exclusive = true;
     Param seed = Param::integer("seed", "a | b", "", 7, 0, 4294967295.0);
@@ -98,7 +163,7 @@ TEST(Documents, TableOfFields) {
               "| field | what | type | unit | range | default |\n"
               "|---|---|---|---|---|---|\n"
               "| `/scene/camera` | the view | object |  |  |  |\n"
-              "| `/scene/camera/eye` | where from | array of 3 numbers | m | -10 to 10 | `[0, 0.5, 1]` |\n"
+              "| `/scene/camera/eye` | where from | array of 3 numbers: x, y, z | m | -10 to 10 | `[0, 0.5, 1]` |\n"
               "| `/scene/camera/near` | how near | number | m | 0 to 1, both excluded | `0.25` |\n"
               "| `/scene/light` | may be left out | object |  |  | none |\n"
               "| `/scene/light/on` | shines | true or false |  |  | `true` |\n"
@@ -109,24 +174,6 @@ TEST(Documents, TableOfFields) {
               "| `/scene/on` | whether | true or false |  |  | `true` |\n"
               "| `/scene/parts` | some | array of 0 to 9 objects |  |  | `[]` |\n"
               "| `/scene/parts/*/count` | how many | integer |  | 1 to 2000000 | required |\n");
-}
-
-TEST(Documents, LitmusPage) {
-    const json litmus = {
-        {"scenes",
-         {{{"id", "a"}, {"name", "First"}, {"what", "One."}}, {{"id", "b"}, {"name", "Second"}, {"what", "Two."}}}},
-        {"methods",
-         {{{"name", "f2b"},
-           {"variants", {{{"id", "f2b"}}}},
-           {"rows",
-            {{{"scenes", {"b"}}, {"expect", "passes"}, {"why", "it can"}},
-             {{"scenes", {"a"}}, {"expect", "fails"}, {"why", "it cannot"}}}}}}}};
-    const std::string page = litmus_page(litmus);
-    EXPECT_THAT(page, HasSubstr("| First | One. |\n| Second | Two. |\n"));
-    EXPECT_THAT(page, HasSubstr("| method | First | Second |\n|---|---|---|\n| f2b | **fails** | passes |\n"));
-    EXPECT_THAT(page, HasSubstr("### f2b\nTested as `{\"id\":\"f2b\"}`.\n\n"
-                                "- Second: **passes**, because it can.\n- First: **fails**, because it cannot.\n"));
-    EXPECT_THROW(litmus_page(json::object()), json::exception);
 }
 
 TEST(Documents, HaveNoBoundsWithExponents) {

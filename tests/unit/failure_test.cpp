@@ -1,4 +1,4 @@
-// What leaves the renderer of an error: the texts of our own errors, nothing of others.
+// What the renderer reports of an error: the texts of our own errors, nothing of others.
 #include "server/cli/failure.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <array>
 #include <filesystem>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
 
 namespace sheer::cli::failure_test {
 
@@ -28,7 +28,7 @@ TEST(Failure, OurOwnErrorsAreForTheCaller) {
     EXPECT_EQ(describe_failure(RenderError("")).exit_code, 3);
 }
 
-TEST(Failure, WhatOthersSayStaysHere) {
+TEST(Failure, OtherTextsAreNotSent) {
     const std::filesystem::filesystem_error file("cannot rename", "/srv/secret/path", std::error_code());
     const std::runtime_error library("libfoo 1.2: /srv/secret");
     for (const std::exception* error : std::array<const std::exception*, 2>{&file, &library}) {

@@ -54,7 +54,7 @@ class StillLife {
                 {"indices", m_writer.accessor(indices, "SCALAR")}};
     }
 
-    /// A disc that looks up, with a picture `repeats` times across.
+    /// A disc that faces up, with a picture repeated `repeats` times across it.
     json cloth(double radius, double repeats) {
         std::vector<float> positions = {0, 0, 0}, normals = {0, 1, 0}, uvs = {0, 0};
         std::vector<std::uint16_t> indices;
@@ -90,7 +90,7 @@ class StillLife {
     GlbWriter m_writer;
 };
 
-/// A mesh of threads round a hole, with a knot in its middle.
+/// A picture of threads around a hole, with a knot in its middle.
 std::string lace() {
     constexpr int size = 32;
     std::vector<std::uint8_t> rgba;

@@ -1,4 +1,4 @@
-// The model of the ready comparison configs/specs/glass.json is the one that its generator makes.
+// The model of the ready-made comparison configs/specs/glass.json is the one that its generator makes.
 #include "tests/unit/glass_model.h"
 
 #include <gtest/gtest.h>
@@ -7,26 +7,27 @@
 #include <sstream>
 
 #include "renderer/assets/read_model.h"
+#include "tests/source_folder.h"
 
 namespace sheer::test::glass_model_test {
 
 namespace {
 
-const char* const path = SHEER_SOURCE_DIR "/configs/models/glass.glb";
+const std::string path = source_folder() + std::string("/configs/specs/glass.glb");
 
-/// Writes the file anew: unit_tests --gtest_also_run_disabled_tests --gtest_filter=GlassModel.DISABLED_Write
+/// Rewrites the file: unit_tests --gtest_also_run_disabled_tests --gtest_filter=GlassModel.DISABLED_Write
 TEST(GlassModel, DISABLED_Write) {
     std::ofstream file(path, std::ios::binary);
     file << make_glass_model();
     ASSERT_TRUE(file.flush());
 }
 
-TEST(GlassModel, IsTheGenerators) {
+TEST(GlassModel, IsMadeByItsGenerator) {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream bytes;
     bytes << file.rdbuf();
     ASSERT_TRUE(file) << "cannot read " << path;
-    EXPECT_TRUE(bytes.str() == make_glass_model()) << path << " is not what make_glass_model makes";
+    EXPECT_TRUE(bytes.str() == make_glass_model()) << path << " differs from the result of make_glass_model";
     EXPECT_LT(bytes.str().size(), 100000u);
 }
 

@@ -8,7 +8,7 @@
 
 namespace sheer::test {
 
-/// `value` in `count` bytes, the lowest first.
+/// `value` in `count` bytes, least significant first.
 inline std::string little_endian(std::uint64_t value, int count) {
     std::string bytes;
     for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
@@ -20,7 +20,7 @@ inline std::string big_endian(std::uint32_t value) {
     return {bytes.rbegin(), bytes.rend()};
 }
 
-/// A PNG of 8-bit RGBA, its pixels in stored (not compressed) blocks: ISO 15948, RFC 1950 and RFC 1951.
+/// A PNG of 8-bit RGBA, with its pixels in stored (not compressed) blocks: ISO 15948, RFC 1950 and RFC 1951.
 inline std::string make_png(int width_px, int height_px, const std::vector<std::uint8_t>& rgba) {
     const auto chunk = [](const std::string& type, const std::string& data) {
         std::uint32_t crc = 0xffffffffu;
@@ -65,7 +65,7 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
-/// Puts a glTF file together piece by piece. Each function returns the index of what it added.
+/// Builds a glTF file piece by piece. Each function returns the index of the added object.
 class GlbWriter {
   public:
     nlohmann::json document = {
@@ -99,7 +99,7 @@ class GlbWriter {
         return add("accessors", object);
     }
 
-    /// A texture with a picture of its own inside.
+    /// A texture with its own embedded picture.
     int texture(const std::string& png) {
         const int image = add("images", {{"bufferView", view(png)}, {"mimeType", "image/png"}});
         return add("textures", {{"source", image}});
@@ -119,7 +119,7 @@ class GlbWriter {
         return add("meshes", {{"primitives", {primitive}}});
     }
 
-    /// A node that stands in the scene.
+    /// A node of the scene.
     int root(nlohmann::json node) {
         const int index = add("nodes", std::move(node));
         document["scenes"][0]["nodes"].push_back(index);

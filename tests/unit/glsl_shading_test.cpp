@@ -1,4 +1,4 @@
-#include "renderer/scene/glsl_shading.h"
+#include "renderer/glsl/own_shading.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The function that is made of `body`, without the lines before and after it.
+/// The function made from `body`, without the lines before and after it.
 std::string rewritten(const std::string& body) {
     const std::string begin = "#line 100000\nvec4 sheer_own_work(vec2 uv, vec4 tint) { ", end = " }\n#line 1\n";
     const std::string function = make_glsl_shading(body).function;
@@ -92,7 +92,7 @@ TEST(GlslShading, StatementsHaveAnEnd) {
     };
     EXPECT_NO_THROW(make_glsl_shading(sum(4000)));
     EXPECT_THROW(make_glsl_shading(sum(5000)), GlslError);
-    // Divisions within divisions are written twice each time, which must come to an end too.
+    // Nested divisions are written twice at each level, which must be limited too.
     std::string nested = "return tint";
     for (int i = 0; i < 40; ++i) nested += "/(uv.x";
     EXPECT_THROW(make_glsl_shading(nested + std::string(40, ')') + ";"), GlslError);
@@ -101,7 +101,7 @@ TEST(GlslShading, StatementsHaveAnEnd) {
     EXPECT_THROW(make_glsl_shading(deep + std::string(1000, ')') + ";"), GlslError);
 }
 
-TEST(GlslShading, KnowsWhatItNeeds) {
+TEST(GlslShading, KnowsItsRequirements) {
     EXPECT_FALSE(make_glsl_shading("return tint; // for sample_texture").has_loops);
     EXPECT_TRUE(make_glsl_shading("do {} while (false); return tint;").has_loops);
     EXPECT_FALSE(make_glsl_shading("return my_sample_texture;").is_textured);
@@ -121,7 +121,7 @@ class Refusals : public testing::TestWithParam<Refusal> {};
 TEST_P(Refusals, NameTheLine) {
     try {
         make_glsl_shading(GetParam().body);
-        FAIL() << "was taken";
+        FAIL() << "was accepted";
     } catch (const GlslError& error) {
         EXPECT_THAT(error.what(), testing::StartsWith(GetParam().error));
     }
@@ -134,10 +134,10 @@ const std::vector<Refusal>& refusals() {
         {"pasting", "a ## b", "line 1 has a #"},
         {"closes_the_function", "return tint; }\nvoid f() {", "line 1 has a } that closes nothing"},
         {"brace_left_open", "if (a) {\n b;", "line 1 has a { that is not closed"},
-        {"brackets_crossed", "f(\n[)]", "line 2 has a ) where the [ of line 2 is still open"},
-        {"brace_in_parentheses", "while (a {) b; }", "line 1 has a ) where the { of line 1 is still open"},
-        {"comment_left_open", "a;\nb; /* c }", "line 2 begins a comment that does not end"},
-        {"comment_that_is_too_short", "a; /*/", "line 1 begins a comment that does not end"},
+        {"brackets_crossed", "f(\n[)]", "line 2 has a ) but the [ of line 2 is still open"},
+        {"brace_in_parentheses", "while (a {) b; }", "line 1 has a ) but the { of line 1 is still open"},
+        {"comment_left_open", "a;\nb; /* c }", "line 2 begins a comment that is not closed"},
+        {"comment_that_is_too_short", "a; /*/", "line 1 begins a comment that is not closed"},
         {"nul", std::string("a;\n\0b;", 6), "line 2 has the byte 0x00"},
         {"umlaut", "a;\r\r\nb; // \xc3\xa4", "line 3 has the byte 0xc3"},
         {"line_continued", "a; \\\nb;", "line 1 has a \\"},
@@ -173,9 +173,10 @@ const std::vector<Refusal>& refusals() {
         {"shifted_size", "float a[1 << 20];", "line 1 has an array of more than 4096"},
         {"many_arrays", "float a[4096], b[4096], c[4096], d[4096], e[1];", "line 1 has arrays of more than 16384"},
         {"array_in_a_loop", "for (int a[9999] = x; ; ) {}", "line 1 has an array of more than 4096"},
-        {"unknown_size", "float a[int(uv.x)];", "line 1 has an array whose size cannot be told"},
-        {"size_by_a_variable", "int n = 5; float a[n];", "line 1 has an array whose size cannot be told"},
-        {"name_used_twice", "const int n = 5; { const int n = 500000; float a[n]; }", "line 1 has an array whose size"},
+        {"unknown_size", "float a[int(uv.x)];", "line 1 has an array of unknown size"},
+        {"size_by_a_variable", "int n = 5; float a[n];", "line 1 has an array of unknown size"},
+        {"name_used_twice", "const int n = 5; { const int n = 500000; float a[n]; }",
+         "line 1 has an array of unknown size"},
         {"by_zero", "int i = 1;\nint j = i / 0;", "line 2 divides by 0"},
         {"remainder_by_zero", "int j = 5 % 0;", "line 1 divides by 0"},
         {"by_unsigned_zero", "uint j = 5u / 0x0u;", "line 1 divides by 0"},
@@ -205,8 +206,8 @@ const std::vector<Refusal>& refusals() {
 INSTANTIATE_TEST_SUITE_P(All, Refusals, testing::ValuesIn(refusals()),
                          [](const testing::TestParamInfo<Refusal>& row) { return row.param.name; });
 
-/// As the three drivers write them. The user's first line is 100000; what is about our own lines, and warnings, are
-/// left out.
+/// Messages as the three drivers write them. The user's first line is 100000; messages about our own lines, and
+/// warnings, are left out.
 TEST(GlslShading, FindsTheUsersLinesInALog) {
     EXPECT_EQ(user_messages("program 'b2f': does not compile:\n"
                             "0:12(3): error: not the user's\n"

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// A square of two triangles that looks along z, in a file of its own.
+/// A square of two triangles that faces along z, in its own file.
 GlbWriter square(const std::string& alpha_mode, const std::vector<float>& normals = {}) {
     GlbWriter writer;
     json attributes = {
@@ -46,7 +46,8 @@ TEST_F(GltfScene, BlendedTrianglesAreSortedOneByOne) {
     const json camera = {{"eye", {3, 0, 4}}, {"target", {0, 0, 0}}};
     const Geometry geometry = build(square("BLEND").glb(), {{"camera", camera}});
     ASSERT_EQ(geometry.primitives.size(), 2u);
-    // The view goes along (-0.6, 0, -0.8) from 5 away. The triangles' middles are (1/3, -1/3, 0) and (-1/3, 1/3, 0).
+    // The view is along (-0.6, 0, -0.8) from a distance of 5. The triangles' middles are (1/3, -1/3, 0) and (-1/3, 1/3,
+    // 0).
     EXPECT_FALSE(geometry.primitives[0].opaque);
     EXPECT_NEAR(geometry.primitives[0].depth, 5 - 0.2, 1e-5);
     EXPECT_NEAR(geometry.primitives[1].depth, 5 + 0.2, 1e-5);
@@ -62,13 +63,14 @@ TEST_F(GltfScene, OpaqueAndMaskedOnesAreNot) {
         EXPECT_TRUE(geometry.primitives[0].opaque);
         EXPECT_EQ(geometry.vertices.size(), 4u);
         ASSERT_EQ(geometry.materials.size(), 1u);
-        // The mask's own alpha of 0.5 is as large as its cutoff: only a texture's could be under what is left of it.
+        // The mask's own alpha of 0.5 equals its cutoff: only a texture could bring it under the cutoff.
         EXPECT_NEAR(geometry.materials[0].cutoff, alpha_mode == "MASK" ? 1 : 0, 1e-4);
         EXPECT_LE(geometry.materials[0].cutoff, 1);
     }
 }
 
-/// What looks up has all of the sky, and of the sun from (-0.5, 0.8, 0.55) the cosine; what looks down neither.
+/// A surface that faces up gets all of the sky, and of the sun from (-0.5, 0.8, 0.55) the cosine; one that faces down
+/// gets neither.
 TEST_F(GltfScene, DaylightIsBakedUnlessRefused) {
     const std::vector<float> up = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}, down = {0, -1, 0, 0, -1, 0, 0, -1, 0, 0, -1, 0};
     const glm::vec4 light = build(square("BLEND", up).glb()).vertices[0].tint;

@@ -5,10 +5,13 @@
 namespace sheer::http::http_text_test {
 namespace {
 
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
 TEST(HttpText, PreferredWait) {
     EXPECT_EQ(preferred_wait_s("wait=10"), 10);
     EXPECT_EQ(preferred_wait_s("respond-async, WAIT = 5; x=y"), 5);
     EXPECT_EQ(preferred_wait_s("wait=0"), 0);
+    EXPECT_EQ(preferred_wait_s("wait=\"7\""), 7);
     EXPECT_EQ(preferred_wait_s(""), std::nullopt);
     EXPECT_EQ(preferred_wait_s("wait"), std::nullopt);
     EXPECT_EQ(preferred_wait_s("wait=-1"), std::nullopt);
@@ -44,19 +47,41 @@ TEST(HttpText, HostNames) {
 }
 
 TEST(HttpText, PercentEscapes) {
-    EXPECT_EQ(percent_decoded("a%20b+c", true), "a b c");
-    EXPECT_EQ(percent_decoded("a+%2f%2F", false), "a+//");
-    EXPECT_EQ(percent_decoded("%", false), std::nullopt);
-    EXPECT_EQ(percent_decoded("%4", false), std::nullopt);
-    EXPECT_EQ(percent_decoded("%-1", false), std::nullopt);
-    EXPECT_EQ(percent_decoded("%g0", false), std::nullopt);
+    using Segments = std::vector<std::string>;
+    EXPECT_EQ(query_pairs("q=a%20b+c"), (Pairs{{"q", "a b c"}}));
+    EXPECT_EQ(path_segments("/a+%2f%2F"), Segments{"a+//"});
+    for (const std::string broken : {"%", "%4", "%-1", "%g0"}) {
+        EXPECT_EQ(query_pairs("q=" + broken), std::nullopt) << broken;
+        EXPECT_EQ(path_segments("/" + broken), std::nullopt) << broken;
+    }
+}
+
+TEST(HttpText, Paths) {
+    using Segments = std::vector<std::string>;
+    EXPECT_EQ(path_segments("/"), Segments{});
+    EXPECT_EQ(path_segments("/a/b"), (Segments{"a", "b"}));
+    EXPECT_EQ(path_segments("/a/"), (Segments{"a", ""}));
+    EXPECT_EQ(path_segments("/a//b"), (Segments{"a", "", "b"}));
+    EXPECT_EQ(path_segments("//a"), (Segments{"", "a"}));
+    EXPECT_EQ(path_segments("/a/../b"), (Segments{"a", "..", "b"}));
+    EXPECT_EQ(path_segments("/./a"), Segments{"a"}) << "a first dot says nothing (RFC 3986, 4.2)";
+    EXPECT_EQ(path_segments(""), std::nullopt);
+    EXPECT_EQ(path_segments("a/b"), std::nullopt);
+    EXPECT_EQ(path_segments("*"), std::nullopt);
 }
 
 TEST(HttpText, Queries) {
-    using Pairs = std::vector<std::pair<std::string, std::string>>;
     EXPECT_EQ(query_pairs(""), Pairs{});
     EXPECT_EQ(query_pairs("a=1&b=x%26y&c&&d=e=f"), (Pairs{{"a", "1"}, {"b", "x&y"}, {"c", ""}, {"d", "e=f"}}));
+    EXPECT_EQ(query_pairs("=a&+b=c+"), (Pairs{{"", "a"}, {" b", "c "}}));
     EXPECT_EQ(query_pairs("a=%zz"), std::nullopt);
+}
+
+/// RFC 3986 allows them only as escapes, but browsers send most of them as they are.
+TEST(HttpText, OtherCharactersAreKept) {
+    const std::string others = "|^`{}[]<>\"\\#\xC3\xA9\xFF";
+    EXPECT_EQ(query_pairs("q=" + others + "%25"), (Pairs{{"q", others + "%"}}));
+    EXPECT_EQ(path_segments("/" + others), std::vector<std::string>{others});
 }
 
 TEST(HttpText, Events) {

@@ -1,4 +1,4 @@
-#include "renderer/spec/json_text.h"
+#include "renderer/params/json_text.h"
 
 #include <gmock/gmock.h>
 
@@ -34,14 +34,14 @@ std::vector<std::string> twice(const std::string& text) {
     return pointers;
 }
 
-TEST(JsonText, IsReadWhole) {
+TEST(JsonText, IsReadCompletely) {
     EXPECT_EQ(read_json(R"( {"a": [1, -2.5, true, null, "x"], "b": {}} )"),
               (json{{"a", {1, -2.5, true, nullptr, "x"}}, {"b", json::object()}}));
     EXPECT_EQ(read_json("\xef\xbb\xbf[]"), json::array());
     EXPECT_EQ(read_json("7"), 7);
 }
 
-TEST(JsonText, WithAnythingBehindItIsNone) {
+TEST(JsonText, WithAnythingAfterItIsRefused) {
     using namespace std::string_literals;
     for (const char* text : {"{}x", "{} {}", "[1],", "1 2", "{}\xff", "\"a\"\"b\""})
         EXPECT_NE(why_not(text), "") << text;
@@ -50,7 +50,7 @@ TEST(JsonText, WithAnythingBehindItIsNone) {
     EXPECT_THAT(why_not("{}\0x"s), HasSubstr("NUL at byte 3"));
 }
 
-TEST(JsonText, ThatIsBrokenSaysWhere) {
+TEST(JsonText, IfMalformedGivesThePosition) {
     EXPECT_THAT(why_not("{\"a\": ,}"), HasSubstr("line 1, column 7"));
     EXPECT_NE(why_not(""), "");
     EXPECT_NE(why_not("\"\xff\""), "");
@@ -64,12 +64,12 @@ TEST(JsonText, WithAKeyTwiceIsRefusedAtTheKey) {
     EXPECT_THAT(twice(R"({"a": 1, "b": 2, "a": 1})"), ElementsAre("/a"));
     EXPECT_THAT(twice(R"({"m": [0, [], {"x": {"y": 1, "z": [1, 2], "y": 3}}]})"), ElementsAre("/m/2/x/y"));
     EXPECT_THAT(twice(R"([{"a/b": 1, "a/b": 1}, {"~": 1, "~": 1}])"), ElementsAre("/0/a~1b", "/1/~0"));
-    // Spelled in two ways, it is the same key.
+    // The same key, spelled in two ways.
     EXPECT_THAT(twice(R"({"a": 1, "\u0061": 1})"), ElementsAre("/a"));
     EXPECT_THAT(twice(R"([{"a": 1}, {"a": 1}, {"b": {"a": 1}, "a": 2}])"), ElementsAre());
 }
 
-TEST(JsonText, OfASpecIsHeldToTheSame) {
+TEST(JsonText, OfASpecFollowsTheSameRules) {
     const std::string spec = R"({"scene": {"type": "quads"}, "methods": ["b2f"], "image": {"width": 8, "width": 9}})";
     try {
         parse_spec_text(spec);

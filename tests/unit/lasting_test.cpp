@@ -12,7 +12,7 @@ Limits limits(int connections, int per_client) {
     return made;
 }
 
-TEST(LastingAnswersTest, AClientHasSome) {
+TEST(LastingAnswersTest, AClientMayHaveAFew) {
     LastingAnswers answers(limits(100, 2));
     const Lasting first(answers, "a");
     EXPECT_TRUE(first.is_granted());
@@ -31,7 +31,7 @@ TEST(LastingAnswersTest, AllTogetherLeaveConnectionsForOthers) {
     EXPECT_FALSE(answers.begin("another"));
     answers.end("3");
     EXPECT_TRUE(answers.begin("another"));
-    // The only connection may last.
+    // A single connection may be long-lived.
     LastingAnswers one(limits(1, 100));
     EXPECT_TRUE(one.begin("a"));
     EXPECT_FALSE(one.begin("a"));

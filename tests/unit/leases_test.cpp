@@ -1,185 +1,188 @@
+// How every store handles jobs.
 #include "store_fixture.h"
 
 namespace sheer::test::leases_test {
 namespace {
 
 using LeasesTest = StoreTest;
-using nlohmann::json;
+using Removal = ReportArchive::Removal;
 
-TEST_F(LeasesTest, JobsAreLeasedOldestFirstAndOnce) {
+TEST_P(LeasesTest, JobsAreLeasedOldestFirstAndOnce) {
     const std::string first = submit("first"), second = submit("second");
     EXPECT_EQ(lease("a").id, first);
     EXPECT_EQ(lease("b").id, second);
-    EXPECT_FALSE(m_store.lease("c"));
+    EXPECT_FALSE(m_queue.lease("c"));
     EXPECT_EQ(status(first), Status::running);
 }
 
-TEST_F(LeasesTest, AHeartbeatKeepsTheLeaseAndTheProgress) {
+TEST_P(LeasesTest, AHeartbeatKeepsTheLeaseAndTheProgress) {
     const std::string id = submit();
     const Lease job = lease();
     for (int i = 0; i < 5; ++i) {
         m_now_ms += m_rules.lease_ms - 1;
-        EXPECT_FALSE(m_store.lease("other"));
-        EXPECT_EQ(m_store.heartbeat(job, 0.1 * i, "timing"), LeaseState::held);
+        EXPECT_FALSE(m_queue.lease("other"));
+        EXPECT_EQ(m_queue.heartbeat(job, 0.1 * i, "timing"), LeaseState::held);
     }
-    EXPECT_DOUBLE_EQ(m_store.find(id)->progress, 0.4);
-    EXPECT_EQ(m_store.find(id)->stage, "timing");
+    EXPECT_DOUBLE_EQ(m_reports.find(id)->progress, 0.4);
+    EXPECT_EQ(m_reports.find(id)->stage, "timing");
 }
 
-TEST_F(LeasesTest, OnlyWhatAReaderSeesMakesARevision) {
+TEST_P(LeasesTest, OnlyVisibleChangesMakeARevision) {
     const std::string id = submit();
     const Lease job = lease();
-    m_store.heartbeat(job, 0.5, "timing");
-    const std::int64_t revision = m_store.find(id)->revision;
-    m_store.heartbeat(job, 0.5, "timing");
-    EXPECT_EQ(m_store.find(id)->revision, revision);
-    m_store.heartbeat(job, 0.5, "measuring");
-    EXPECT_EQ(m_store.find(id)->revision, revision + 1);
+    m_queue.heartbeat(job, 0.5, "timing");
+    const std::int64_t revision = m_reports.find(id)->revision;
+    m_queue.heartbeat(job, 0.5, "timing");
+    EXPECT_EQ(m_reports.find(id)->revision, revision);
+    m_queue.heartbeat(job, 0.5, "measuring");
+    EXPECT_EQ(m_reports.find(id)->revision, revision + 1);
 }
 
-TEST_F(LeasesTest, ALeaseThatRanOutGoesToAnotherWorkerOnce) {
+TEST_P(LeasesTest, AnExpiredLeaseGoesToAnotherWorkerOnce) {
     const std::string id = submit();
     const Lease lost = lease("dead");
-    m_store.heartbeat(lost, 0.7, "timing");
+    m_queue.heartbeat(lost, 0.7, "timing");
     m_now_ms += m_rules.lease_ms + 1;
     const Lease second = lease("next");
     EXPECT_EQ(second.id, id);
     EXPECT_EQ(second.attempt, 2);
-    EXPECT_EQ(m_store.find(id)->progress, 0);
+    EXPECT_EQ(m_reports.find(id)->progress, 0);
     m_now_ms += m_rules.lease_ms + 1;
-    EXPECT_FALSE(m_store.lease("third"));
+    EXPECT_FALSE(m_queue.lease("third"));
     ASSERT_EQ(status(id), Status::failed);
-    EXPECT_EQ(m_store.find(id)->error->title, "Rendering failed");
-    EXPECT_EQ(m_store.find(id)->error->detail, "The worker died while it rendered this report.");
-    EXPECT_EQ(m_store.find(id)->finished_ms, m_now_ms);
+    EXPECT_EQ(m_reports.find(id)->error->title, "Rendering failed");
+    EXPECT_EQ(m_reports.find(id)->error->detail, "The worker died while it rendered this report.");
+    EXPECT_EQ(m_reports.find(id)->finished_ms, m_now_ms);
 }
 
-TEST_F(LeasesTest, AfterAJobThatIsGivenUpTheNextRuns) {
+TEST_P(LeasesTest, AfterAJobThatIsGivenUpTheNextRuns) {
     m_rules.max_attempts = 1;
-    SqliteStore store(m_folder.path() / "data", m_rules, m_clock);
+    const auto store = m_place->open(m_rules, m_clock);
     submit("kills");
     const std::string next = submit("harmless");
-    store.lease("dead");
+    store->queue().lease("dead");
     m_now_ms += m_rules.lease_ms + 1;
-    EXPECT_EQ(store.lease("alive")->id, next);
+    EXPECT_EQ(store->queue().lease("alive")->id, next);
 }
 
-TEST_F(LeasesTest, AWorkerThatLostItsLeaseCannotTouchTheJob) {
+TEST_P(LeasesTest, AWorkerThatLostItsLeaseCannotTouchTheJob) {
     const std::string id = submit();
     const Lease lost = lease("worker");
     m_now_ms += m_rules.lease_ms + 1;
     const Lease held = lease("worker");  // the same name does not help
-    EXPECT_EQ(m_store.heartbeat(lost, 0.9, "late"), LeaseState::lost);
-    EXPECT_EQ(m_store.state(lost), LeaseState::lost);
-    EXPECT_FALSE(m_store.commit(lost, finished(lost, "late")));
-    m_store.fail(lost, {"late", "late"}, false);
-    m_store.release(lost);
-    m_store.cancel(lost);
+    EXPECT_EQ(m_queue.heartbeat(lost, 0.9, "late"), LeaseState::lost);
+    EXPECT_EQ(m_queue.state(lost), LeaseState::lost);
+    EXPECT_FALSE(m_queue.commit(lost, finished(lost, "late")));
+    m_queue.fail(lost, {"late", "late"}, false);
+    m_queue.release(lost);
+    m_queue.cancel(lost);
     EXPECT_EQ(status(id), Status::running);
-    EXPECT_EQ(m_store.state(held), LeaseState::held);
-    EXPECT_TRUE(m_store.commit(held, finished(held, "in time")));
-    EXPECT_FALSE(m_store.commit(held, finished(held, "twice")));
+    EXPECT_EQ(m_queue.state(held), LeaseState::held);
+    EXPECT_TRUE(m_queue.commit(held, finished(held, "in time")));
+    EXPECT_FALSE(m_queue.commit(held, finished(held, "twice")));
 }
 
-TEST_F(LeasesTest, TheLeasesOfADeadWorkerEndAtOnce) {
+TEST_P(LeasesTest, TheLeasesOfADeadWorkerEndAtOnce) {
     const std::string first = submit("first"), second = submit("second");
     lease("dead");
     lease("alive");
-    m_store.end_leases_of("dead");
+    m_queue.end_leases_of("dead");
     EXPECT_EQ(status(first), Status::queued);
     EXPECT_EQ(status(second), Status::running);
 }
 
-TEST_F(LeasesTest, AnAttemptThatMaySucceedNextTimeIsRepeated) {
+TEST_P(LeasesTest, AnAttemptThatMaySucceedNextTimeIsRepeated) {
     const std::string id = submit();
-    m_store.fail(lease(), {"died", "signal 11"}, true);
+    m_queue.fail(lease(), {"died", "signal 11"}, true);
     EXPECT_EQ(status(id), Status::queued);
-    m_store.fail(lease(), {"died", "signal 11"}, true);
+    m_queue.fail(lease(), {"died", "signal 11"}, true);
     ASSERT_EQ(status(id), Status::failed);
-    EXPECT_EQ(m_store.find(id)->error->detail, "signal 11");
+    EXPECT_EQ(m_reports.find(id)->error->detail, "signal 11");
 }
 
-TEST_F(LeasesTest, AnAttemptThatCannotSucceedIsNotRepeated) {
+TEST_P(LeasesTest, AnAttemptThatCannotSucceedIsNotRepeated) {
     const std::string id = submit();
-    m_store.fail(lease(), {"unsupported", ""}, false);
+    m_queue.fail(lease(), {"unsupported", ""}, false);
     EXPECT_EQ(status(id), Status::failed);
 }
 
-TEST_F(LeasesTest, AJobThatIsGivenBackWasNotTried) {
+TEST_P(LeasesTest, AReturnedJobDoesNotCountAsTried) {
     const std::string id = submit();
     for (int i = 0; i < 5; ++i) {
         const Lease job = lease();
         EXPECT_EQ(job.attempt, 1);
-        m_store.release(job);
+        m_queue.release(job);
         EXPECT_EQ(status(id), Status::queued);
     }
 }
 
-TEST_F(LeasesTest, AQueuedJobIsCancelledAtOnce) {
+TEST_P(LeasesTest, AQueuedJobIsCancelledAtOnce) {
     const std::string id = submit();
-    EXPECT_EQ(m_store.remove(id), RemoveResult::cancelled);
+    EXPECT_EQ(m_reports.remove(id), Removal::cancelled);
     EXPECT_EQ(status(id), Status::cancelled);
-    EXPECT_FALSE(m_store.lease("worker"));
-    EXPECT_EQ(m_store.remove(id), RemoveResult::deleted);
+    EXPECT_FALSE(m_queue.lease("worker"));
+    EXPECT_EQ(m_reports.remove(id), Removal::deleted);
 }
 
-TEST_F(LeasesTest, ARunningJobIsCancelledByItsWorker) {
+TEST_P(LeasesTest, ARunningJobIsCancelledByItsWorker) {
     const std::string id = submit();
     const Lease job = lease();
-    EXPECT_EQ(m_store.remove(id), RemoveResult::cancelling);
-    EXPECT_EQ(m_store.remove(id), RemoveResult::cancelling);
+    EXPECT_EQ(m_reports.remove(id), Removal::cancelling);
+    EXPECT_EQ(m_reports.remove(id), Removal::cancelling);
     EXPECT_EQ(status(id), Status::running);
-    EXPECT_EQ(m_store.state(job), LeaseState::cancel_requested);
-    EXPECT_EQ(m_store.heartbeat(job, 0.5, ""), LeaseState::cancel_requested);
-    m_store.cancel(job);
+    EXPECT_EQ(m_queue.state(job), LeaseState::cancel_requested);
+    EXPECT_EQ(m_queue.heartbeat(job, 0.5, ""), LeaseState::cancel_requested);
+    m_queue.cancel(job);
     EXPECT_EQ(status(id), Status::cancelled);
 }
 
-TEST_F(LeasesTest, ACancelledJobStaysCancelledHoweverItsAttemptEnds) {
+TEST_P(LeasesTest, ACancelledJobStaysCancelledHoweverItsAttemptEnds) {
     const auto cancelled_running = [this] {
         submit();
         const Lease job = lease();
-        m_store.remove(job.id);
+        m_reports.remove(job.id);
         return job;
     };
     const Lease done = cancelled_running();
-    EXPECT_FALSE(m_store.commit(done, finished(done, "picture")));
+    EXPECT_FALSE(m_queue.commit(done, finished(done, "picture")));
     EXPECT_EQ(status(done.id), Status::cancelled);
     const Lease failed = cancelled_running();
-    m_store.fail(failed, {"died", ""}, true);
+    m_queue.fail(failed, {"died", ""}, true);
     EXPECT_EQ(status(failed.id), Status::cancelled);
     const Lease released = cancelled_running();
-    m_store.release(released);
+    m_queue.release(released);
     EXPECT_EQ(status(released.id), Status::cancelled);
     const Lease lost = cancelled_running();
     m_now_ms += m_rules.lease_ms + 1;
-    EXPECT_FALSE(m_store.lease("next"));
+    EXPECT_FALSE(m_queue.lease("next"));
     EXPECT_EQ(status(lost.id), Status::cancelled);
 }
 
-TEST_F(LeasesTest, ACommitIsWholeOrNotAtAll) {
+TEST_P(LeasesTest, ACommitIsCompleteOrNotMadeAtAll) {
     const std::string id = submit();
     const Lease job = lease();
     FinishedReport report = finished(job, "there");
-    report.blobs.push_back({sha256_hex("missing"), "image/png", m_folder.path() / "missing"});
-    EXPECT_THROW(m_store.commit(job, report), StoreError);
+    report.blobs.push_back({sha256_hex("missing"), "image/png"});
+    EXPECT_THROW(m_queue.commit(job, report), StoreError);
     EXPECT_EQ(status(id), Status::running);
-    EXPECT_FALSE(m_store.find_blob(sha256_hex("there")));
+    EXPECT_FALSE(m_blobs.open(sha256_hex("there")));
     report.blobs.pop_back();
-    EXPECT_TRUE(m_store.commit(job, report));
-    EXPECT_TRUE(m_store.find_blob(sha256_hex("there")));
+    EXPECT_TRUE(m_queue.commit(job, report));
+    EXPECT_TRUE(m_blobs.open(sha256_hex("there")));
 }
 
-TEST_F(LeasesTest, AFinishedJobCountsAsRendering) {
-    EXPECT_FALSE(m_store.last_rendered_ms());
+TEST_P(LeasesTest, AFinishedJobCountsAsRendering) {
+    EXPECT_FALSE(m_readiness.last_rendered_ms());
     make_done("done", "picture");
-    EXPECT_EQ(m_store.last_rendered_ms(), m_now_ms);
+    EXPECT_EQ(m_readiness.last_rendered_ms(), m_now_ms);
     m_now_ms += 5;
-    m_store.note_rendered();
-    EXPECT_EQ(m_store.last_rendered_ms(), m_now_ms);
+    m_readiness.note_rendered();
+    EXPECT_EQ(m_readiness.last_rendered_ms(), m_now_ms);
 }
 
-TEST(LeaseRulesTest, WhatBecomesOfALostAttempt) {
+INSTANTIATE_TEST_SUITE_P(Stores, LeasesTest, every_store, store_name);
+
+TEST(LeaseRulesTest, DecideOnALostAttempt) {
     const LeaseRules rules{.max_attempts = 2};
     EXPECT_EQ(after_lost_attempt(1, false, rules), Status::queued);
     EXPECT_EQ(after_lost_attempt(2, false, rules), Status::failed);

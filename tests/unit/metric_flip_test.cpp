@@ -1,12 +1,14 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
 
 #include "metric_pictures.h"
-#include "renderer/frame/flip_map.h"
-#include "renderer/frame/magma.h"
+#include "renderer/image/magma.h"
+#include "renderer/metrics/shared/flip_map.h"
+#include "tests/source_folder.h"
 
 namespace sheer::metric_flip_test {
 namespace {
@@ -14,10 +16,10 @@ namespace {
 using test::constant8;
 using test::picture;
 
-/// NVIDIA's tool works in single precision throughout; ours and it differ by less than 5e-5 where measured.
+/// NVIDIA's tool works in single precision throughout; the measured differences from ours are less than 5e-5.
 constexpr double tolerance = 0.001;
 
-const std::string folder = std::string(SHEER_SOURCE_DIR) + "/tests/data/flip/";
+const std::string folder = std::string(source_folder()) + "/tests/data/flip/";
 
 Image read_picture(const std::string& name) {
     const auto file = OIIO::ImageInput::open(folder + name);
@@ -48,7 +50,7 @@ TEST(Flip, AgreesWithTheReferenceTool) {
     }
 }
 
-// The other metrics of the same pictures, worked out in JavaScript (pngjs, ssim.js).
+// The other metrics of the same pictures, computed in JavaScript (pngjs, ssim.js).
 TEST(Metrics, OfRenderedPictures) {
     const auto found = test::values(read_picture("reference.png"), read_picture("test_threshold_0.25.png"));
     EXPECT_NEAR(found["signed"]["mean_abs"], 7.9652048746744795, 1e-12);
@@ -59,16 +61,16 @@ TEST(Metrics, OfRenderedPictures) {
     EXPECT_NEAR(found["ssim"], 0.8776758650126548, 1e-6);
 }
 
-struct Colours {
+struct Colors {
     test::Levels one, two;
     double flip;
 };
 
-class FlipOfConstants : public testing::TestWithParam<Colours> {};
+class FlipOfConstants : public testing::TestWithParam<Colors> {};
 
-// Filters leave a constant picture as it is, so only the colour difference remains: worked out in double precision from
+// Filters leave a constant picture unchanged, so only the color difference remains: computed in double precision from
 // L*a*b*, Hunt's adjustment, HyAB and the remapping.
-TEST_P(FlipOfConstants, IsTheColourDifference) {
+TEST_P(FlipOfConstants, IsTheColorDifference) {
     const auto& [one, two, flip] = GetParam();
     for (const auto& [width, height] : {std::pair{1, 1}, std::pair{5, 2}, std::pair{140, 70}})
         for (const float value : flip_map(constant8(width, height, one), constant8(width, height, two)))
@@ -77,12 +79,12 @@ TEST_P(FlipOfConstants, IsTheColourDifference) {
 
 INSTANTIATE_TEST_SUITE_P(
     Worked, FlipOfConstants,
-    testing::Values(Colours{{255, 255, 255}, {0, 0, 0}, 0.967380}, Colours{{0, 255, 0}, {0, 0, 255}, 1.0},
-                    Colours{{128, 128, 128}, {100, 100, 100}, 0.312392},
-                    Colours{{200, 30, 30}, {180, 60, 20}, 0.240124}, Colours{{255, 0, 0}, {0, 255, 0}, 0.986662},
-                    Colours{{10, 10, 10}, {12, 12, 12}, 0.039261}, Colours{{5, 5, 5}, {1, 1, 1}, 0.061380}));
+    testing::Values(Colors{{255, 255, 255}, {0, 0, 0}, 0.967380}, Colors{{0, 255, 0}, {0, 0, 255}, 1.0},
+                    Colors{{128, 128, 128}, {100, 100, 100}, 0.312392}, Colors{{200, 30, 30}, {180, 60, 20}, 0.240124},
+                    Colors{{255, 0, 0}, {0, 255, 0}, 0.986662}, Colors{{10, 10, 10}, {12, 12, 12}, 0.039261},
+                    Colors{{5, 5, 5}, {1, 1, 1}, 0.061380}));
 
-// Worked out with the paper's formulas as they stand: filters in two dimensions, double precision, borders replicated.
+// Computed directly from the paper's formulas: filters in two dimensions, double precision, borders replicated.
 TEST(Flip, OfPicturesSmallerThanItsFilters) {
     const auto map = [](int width, int height) {
         return flip_map(quantize(picture(width, height, test::busy)),
@@ -112,7 +114,7 @@ TEST(Flip, IsSymmetricAndDoesNotDependOnTheThreads) {
 }
 
 TEST(Flip, TilesLeaveNoSeam) {
-    // A picture that repeats every 17 pixels has a map that does, away from the borders: also across tiles.
+    // A picture that repeats every 17 pixels has a map that repeats too, away from the borders, even across tiles.
     const auto repeat = [](const auto& level) { return [&](int x, int y) { return level(x % 17, y % 17); }; };
     const auto map = flip_map(quantize(picture(300, 160, repeat(test::busy))),
                               quantize(picture(300, 160, repeat(test::busy_distorted))));
@@ -159,7 +161,7 @@ TEST(Flip, PictureIsMagma) {
     EXPECT_THAT(shown({0, 255, 0}, {0, 0, 255}), testing::ElementsAre(252, 253, 191, 252, 253, 191));
 }
 
-// Points of matplotlib's table that do not lie on the knots of ours.
+// Points of matplotlib's table that are not knots of ours.
 TEST(Magma, IsWithinALevelOfTheOriginal) {
     const int original[2][4] = {{128, 183, 55, 121}, {51, 59, 15, 112}};
     for (const auto& point : original)

@@ -1,5 +1,6 @@
-// The metrics of the float pictures: those that rounding to 8 bits and one background hide.
+// The metrics of the float pictures, which show differences that rounding to 8 bits and a single background hide.
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>
@@ -27,7 +28,7 @@ TEST(LinearMetric, WorkedByHand) {
     Image other = reference;
     other.pixel(0, 0)[1] = 0.25f;
     other.pixel(1, 0)[2] = 2.5f;    // over 1: not clamped
-    other.pixel(1, 0)[3] = 0.125f;  // alpha plays no part
+    other.pixel(1, 0)[3] = 0.125f;  // alpha is ignored
     // 0.25 and 2 over six channels: 2.25 / 6, sqrt((0.0625 + 4) / 6), 2.
     EXPECT_EQ(linear(reference, other)["mean_abs"], 0.375);
     EXPECT_NEAR(linear(reference, other)["rmse"], 0.82285074, 1e-8);
@@ -35,7 +36,7 @@ TEST(LinearMetric, WorkedByHand) {
     EXPECT_EQ(linear(other, reference), linear(reference, other));
 }
 
-TEST(LinearMetric, SeesWhatRoundingHides) {
+TEST(LinearMetric, SeesDifferencesHiddenByRounding) {
     // A quarter of a level, and 1.25 shown as 1.
     const auto faint = test::values(grey(3, 3, 0), grey(3, 3, 0.25f / 255));
     EXPECT_EQ(faint["rmse"], 0.0);
@@ -52,7 +53,7 @@ TEST(LinearMetric, IsThatOfTheLevelsForPicturesOfLevels) {
     EXPECT_NEAR(found["linear"]["mean_abs"].get<double>() * 255, found["signed"]["mean_abs"].get<double>(), 1e-5);
 }
 
-TEST(LinearMetric, OfWhatIsNotFiniteIsNullWithAReason) {
+TEST(LinearMetric, IsNullWithAReasonIfNotFinite) {
     for (const float broken : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         Image other = grey(2, 2, 0);
         other.pixel(1, 1)[0] = broken;
@@ -62,7 +63,7 @@ TEST(LinearMetric, OfWhatIsNotFiniteIsNullWithAReason) {
         }
     }
     const float greatest = std::numeric_limits<float>::max();
-    EXPECT_EQ(linear(grey(2, 2, 0), grey(2, 2, greatest))["max_abs"], double{greatest}) << "no sum overflows";
+    EXPECT_EQ(linear(grey(2, 2, 0), grey(2, 2, greatest))["max_abs"], double{greatest}) << "sums do not overflow";
 }
 
 json over(const Backdrops& reference, const Backdrops& test) {
@@ -92,7 +93,7 @@ TEST(OverBackgrounds, TheCheckerCanBeTheWorst) {
             test.white.pixel(x + 8, y)[0] = 0.25f;
         }
     const json found = over(reference, test);
-    // A ninth of the channels off by 0.5, by 0.75, and both.
+    // A ninth of the channels is off by 0.5, by 0.75, and both.
     EXPECT_NEAR(found["black"], 0.5 / 3, 1e-9);
     EXPECT_NEAR(found["white"], 0.75 / 3, 1e-9);
     EXPECT_NEAR(found["checker"], std::sqrt((0.25 + 0.5625) / 9), 1e-9);
@@ -107,7 +108,7 @@ TEST(OverBackgrounds, RowsOfSquaresAlternateAndTheLastMayBeCut) {
     EXPECT_NEAR(over(reference, test)["checker"], std::sqrt(0.25 * 32 / 100), 1e-9);
 }
 
-TEST(OverBackgrounds, OfEqualsTheFirstIsTheWorstAndOfIdenticalPicturesNone) {
+TEST(OverBackgrounds, TheFirstOfEqualsIsTheWorstAndIdenticalPicturesHaveNone) {
     const Backdrops reference{grey(8, 8, 0), grey(8, 8, 1)}, test{grey(8, 8, 0.5f), grey(8, 8, 0.5f)};
     EXPECT_EQ(over(reference, test)["worst"], "black");
     EXPECT_EQ(over(reference, test)["rmse"], 0.5);

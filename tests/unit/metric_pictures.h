@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/metrics/metric.h"
+#include "renderer/metrics/shared/metric.h"
 
 namespace sheer::test {
 
@@ -33,7 +33,7 @@ inline nlohmann::json values(const Image& reference, const Image& test) {
     return compute_metrics(reference, test).values;
 }
 
-/// Two busy pictures in closed form, which other programs can make too.
+/// Two detailed pictures in closed form, which other programs can make too.
 inline Levels busy(int x, int y) {
     Levels levels;
     for (int c = 0; c < 3; ++c) levels[c] = (x * 7 + y * 13 + (x * y) % 17 * 5 + c * 40) % 256;

@@ -19,8 +19,8 @@ struct Known {
 
 class SsimOfBusyPictures : public testing::TestWithParam<Known> {};
 
-// The mean over the three channels of what ssim.js 3 gives for each as a grey picture, with its options
-// {ssim: "original", downsample: false}. Sizes of exactly one window, less and more than one tile.
+// The mean of the values that ssim.js 3 gives for the three channels as gray pictures, with the options {ssim:
+// "original", downsample: false}. Sizes: exactly one window, less and more than one tile.
 TEST_P(SsimOfBusyPictures, AgreesWithSsimJs) {
     const auto [width, height, value] = GetParam();
     EXPECT_NEAR(ssim(picture(width, height, test::busy), picture(width, height, test::busy_distorted)), value, 1e-7);
@@ -43,7 +43,7 @@ TEST(Ssim, OfOnePixelIsTheLuminanceTerm) {
 }
 
 TEST(Ssim, CutsTheWindowToANarrowPicture) {
-    // One window of weights (0.3078, 0.3844, 0.3078), worked by hand.
+    // One window of weights (0.3078, 0.3844, 0.3078), computed by hand.
     const auto one = picture(3, 1, [](int x, int) { return test::Levels{x * 100, x * 100, x * 100}; });
     const int levels[3] = {10, 90, 220};
     const auto two = picture(3, 1, [&](int x, int) { return test::Levels{levels[x], levels[x], levels[x]}; });

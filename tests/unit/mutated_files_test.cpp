@@ -1,5 +1,5 @@
-// Files with bytes changed, cut out and put in, by a seeded generator: each is refused with a reason, or read as a
-// whole.
+// Files with bytes changed, removed and inserted by a seeded generator: each is refused with a reason, or read
+// completely.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "renderer/assets/picture_file.h"
 #include "renderer/assets/read_volume.h"
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "tests/unit/asset_pictures.h"
 #include "tests/unit/gzipped.h"
 #include "tests/unit/png_writer.h"
@@ -49,7 +49,7 @@ std::string mutated(std::string bytes, Random& random) {
     return bytes;
 }
 
-/// Makes the checksums of all chunks right that are still whole, so that changes get past them.
+/// Corrects the checksums of all chunks that are still complete, so that they do not reveal the changes.
 void mend_checksums(std::string& png) {
     for (std::size_t at = 8; at + 12 <= png.size();) {
         std::size_t length = 0;
@@ -73,7 +73,7 @@ std::vector<Value> ramp(std::size_t count, double step) {
     return values;
 }
 
-/// A picture as it is read, or nothing where it is refused.
+/// A picture as it is read, or nothing if it is refused.
 std::optional<Picture> read_or_refuse(const std::string& bytes) {
     try {
         return read_picture(bytes, 8, 8);
@@ -115,7 +115,7 @@ TEST(MutatedPictures, AreRefusedOrRead) {
             std::string bytes = mutated(whole, random);
             if (mended) mend_checksums(bytes);
             const std::optional<Picture> picture = check(bytes);
-            // Without new checksums a change is found, or makes no difference, such as one behind the end.
+            // Without new checksums a change is detected, or makes no difference, such as one after the end.
             if (picture && !mended) {
                 EXPECT_EQ(picture->image.rgba, read_picture(whole, 8, 8).image.rgba) << i;
             }

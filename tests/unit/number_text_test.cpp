@@ -1,4 +1,4 @@
-#include "renderer/number_text.h"
+#include "renderer/core/number_text.h"
 
 #include <gtest/gtest.h>
 
@@ -24,13 +24,13 @@ TEST(NumberText, HasThreeDigitsAndNoExponent) {
     EXPECT_EQ(number_text(0.9999), "1");
     EXPECT_EQ(number_text(0.0093, 2), "0.0093");
     EXPECT_EQ(number_text(99.97), "100");
-    // Beyond what anybody reads as a row of zeros.
+    // Too small to be read as a row of zeros.
     EXPECT_EQ(number_text(1.234e-12), "1.23e-12");
     EXPECT_EQ(number_text(1.234e20), "1.23e+20");
     EXPECT_EQ(number_text(std::numeric_limits<double>::infinity()), "inf");
 }
 
-TEST(NumberText, BesideALimitItTakesTheDigitsToTellThemApart) {
+TEST(NumberText, NearALimitHasEnoughDigitsToDistinguishThem) {
     EXPECT_EQ(number_text_beside(0.0174, 0.05), "0.0174");
     EXPECT_EQ(number_text_beside(0.05003, 0.05), "0.05003");
     EXPECT_EQ(number_text_beside(0.049996, 0.05), "0.049996");
@@ -42,12 +42,12 @@ TEST(NumberText, BesideALimitItTakesTheDigitsToTellThemApart) {
     for (int i = 0; i < 2000; ++i) {
         const double limit = limits(random), value = limit * (1 + (i % 2 ? 1 : -1) * std::pow(10, shares(random)));
         const double shown = std::stod(number_text_beside(value, limit));
-        EXPECT_EQ(shown < limit, value < limit) << value << " beside " << limit;
-        EXPECT_EQ(shown > limit, value > limit) << value << " beside " << limit;
+        EXPECT_EQ(shown < limit, value < limit) << value << " compared with " << limit;
+        EXPECT_EQ(shown > limit, value > limit) << value << " compared with " << limit;
     }
 }
 
-TEST(NumberText, InFullItGivesTheNumberBack) {
+TEST(NumberText, InFullRoundTrips) {
     EXPECT_EQ(full_number_text(1000000), "1000000");
     EXPECT_EQ(full_number_text(0.0000001), "0.0000001");
     EXPECT_EQ(full_number_text(0.1), "0.1");

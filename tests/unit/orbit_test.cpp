@@ -1,6 +1,7 @@
 #include "server/view/orbit.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
@@ -22,7 +23,7 @@ void expect_eye(const json& moved, const std::array<double, 3>& eye) {
     EXPECT_EQ(moved.at("fov_y_deg"), 40);
 }
 
-/// Four ahead of the target, and a right angle further four to its right.
+/// Four in front of the target, and after a right angle four to its right.
 TEST(Orbit, TurnsAboutTheUpAxis) {
     expect_eye(orbited(camera, 0, 0), {1, 2, 7});
     expect_eye(orbited(camera, right_angle, 0), {5, 2, 3});
@@ -39,7 +40,7 @@ TEST(Orbit, RisesButNotOverTheTop) {
 
 TEST(Orbit, KeepsItsDistanceUntilItIsMovedAway) {
     expect_eye(moved_away(camera, 0.5), {1, 2, 5});
-    // A billionth of the target's distance from the origin is as near as it comes.
+    // It comes no nearer than a billionth of the target's distance from the origin.
     expect_eye(moved_away(camera, 1e-30), {1, 2, 3 + 1e-9 * std::sqrt(14.0)});
     expect_eye(moved_away(orbited(camera, right_angle, 0), 2), {9, 2, 3});
 }

@@ -1,4 +1,4 @@
-// Reports are written into a folder whole or not at all, and nothing of the user's there is ever touched.
+// Reports are written into a folder completely or not at all, and the user's files there are never changed.
 #include "server/cli/output_folder.h"
 
 #include <fcntl.h>
@@ -11,6 +11,7 @@
 #include <map>
 
 #include "renderer/command/command.h"
+#include "renderer/core/files.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace sheer::cli::output_folder_test {
@@ -27,7 +28,7 @@ void write(const fs::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-/// Every file below a folder with its text; of links where they lead.
+/// Every file below a folder with its text; links with their targets.
 Files files_below(const fs::path& folder) {
     Files files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -35,7 +36,7 @@ Files files_below(const fs::path& folder) {
         if (entry.is_symlink()) {
             files[name] = "-> " + fs::read_symlink(entry.path()).string();
         } else if (entry.is_regular_file()) {
-            files[name] = read_text(entry.path());
+            files[name] = read_file(entry.path());
         }
     }
     return files;
@@ -48,13 +49,13 @@ class OutputFolderTest : public testing::Test {
     void fill(const OutputFolder& folder, const Files& files) {
         for (const auto& [name, text] : files) write(folder.partial() / name, text);
     }
-    /// Writes a report of these files, all of it.
+    /// Writes a complete report with these files.
     void make(const Files& files, bool complete = true) {
         OutputFolder folder(m_out, names());
         fill(folder, files);
         folder.commit(complete);
     }
-    /// What is in the folder but the manifest.
+    /// The contents of the folder except the manifest.
     Files found() const {
         Files files = files_below(m_out);
         EXPECT_EQ(files.erase(Manifest::file_name), 1u);
@@ -68,7 +69,7 @@ class OutputFolderTest : public testing::Test {
         }
         return "";
     }
-    /// Refused with this in the message, with everything as it was.
+    /// Expects a refusal with this in the message, and unchanged files.
     void expect_refusal(const std::string& message) const {
         const Files before = files_below(m_root.path());
         EXPECT_THAT(refusal(), HasSubstr(message));
@@ -83,7 +84,7 @@ const Files first = {
     {"report.json", "1"}, {"report.html", "one"}, {"images/1-b2f.color.png", "a"}, {"images/overdraw.png", "b"}};
 const Files second = {{"report.json", "2"}, {"report.html", "two"}, {"images/1-b2f.color.png", "c"}};
 
-TEST_F(OutputFolderTest, AReportTakesThePlaceOfAnOlderOneAndOfNothingElse) {
+TEST_F(OutputFolderTest, AReportReplacesAnOlderOneAndNothingElse) {
     make(first);
     EXPECT_EQ(found(), first);
     write(m_out / "notes.txt", "mine");
@@ -92,10 +93,10 @@ TEST_F(OutputFolderTest, AReportTakesThePlaceOfAnOlderOneAndOfNothingElse) {
     make(second);
     Files expected = second;
     expected.merge(Files{{"notes.txt", "mine"}, {".git/HEAD", "ref"}, {"images/holiday.png", "sun"}});
-    EXPECT_EQ(found(), expected) << "overdraw.png was the older report's and is gone";
+    EXPECT_EQ(found(), expected) << "overdraw.png belonged to the older report and is removed";
 }
 
-TEST_F(OutputFolderTest, MissingFoldersAreMadeAndGoAgainUnlessTheyAreUsed) {
+TEST_F(OutputFolderTest, MissingFoldersAreMadeAndRemovedAgainIfUnused) {
     const fs::path deep = m_root.path() / "a/b/../b/c/";
     { const OutputFolder folder(deep, names()); }
     EXPECT_FALSE(fs::exists(m_root.path() / "a"));
@@ -108,7 +109,7 @@ TEST_F(OutputFolderTest, MissingFoldersAreMadeAndGoAgainUnlessTheyAreUsed) {
     EXPECT_FALSE(fs::exists(m_root.path() / "a/b/c/.sheer-partial"));
 }
 
-TEST_F(OutputFolderTest, FilesOfTheUsersAreRefusedBeforeAnythingIsDone) {
+TEST_F(OutputFolderTest, FilesOfTheUserAreRefusedBeforeAnythingIsDone) {
     for (const char* name : {"report.json", "report.html", "images/1-b2f.color.png", "images/overdraw.png", "images",
                              ".sheer-manifest.json", ".sheer-partial", ".sheer-partial/new/mine"}) {
         write(m_out / "src/main.c", "int main;");
@@ -121,13 +122,13 @@ TEST_F(OutputFolderTest, FilesOfTheUsersAreRefusedBeforeAnythingIsDone) {
     EXPECT_EQ(refusal(), "");
 }
 
-TEST_F(OutputFolderTest, WhatWasChangedSinceIsTheUsers) {
+TEST_F(OutputFolderTest, ChangedFilesBelongToTheUser) {
     make(first);
     write(m_out / "report.json", "edited");
-    expect_refusal("report.json is there already");
+    expect_refusal("report.json already exists");
     write(m_out / "report.json", first.at("report.json"));
     write(m_out / "images/overdraw.png", "painted over");
-    // No longer a picture of the next report's, so it is in nobody's way.
+    // The next report has no picture with this name, so it is not in the way.
     OutputFolder folder(m_out, {"report.json", {"report.html"}, {"1-b2f"}});
     fill(folder, second);
     folder.commit();
@@ -142,16 +143,16 @@ TEST_F(OutputFolderTest, LinksAreNeverFollowed) {
     write(elsewhere / "report.json", first.at("report.json"));
     fs::remove(m_out / "report.json");
     fs::create_symlink(elsewhere / "report.json", m_out / "report.json");
-    expect_refusal("report.json is there already");
+    expect_refusal("report.json already exists");
     fs::remove(m_out / "report.json");
     fs::rename(m_out / "images", elsewhere / "images");
     fs::create_directory_symlink(elsewhere / "images", m_out / "images");
-    expect_refusal("images is there already");
+    expect_refusal("images already exists");
     fs::remove(m_out / "images");
     make(second);
     EXPECT_EQ(found(), second);
     EXPECT_TRUE(fs::exists(elsewhere / "images/overdraw.png"));
-    // The folder itself may be one.
+    // The folder itself may be a link.
     fs::create_directory_symlink(m_out, m_root.path() / "link");
     OutputFolder folder(m_root.path() / "link", names());
     fill(folder, first);
@@ -159,7 +160,7 @@ TEST_F(OutputFolderTest, LinksAreNeverFollowed) {
     EXPECT_EQ(found(), first);
 }
 
-TEST_F(OutputFolderTest, AManifestIsBelievedNoFurtherThanItsFolder) {
+TEST_F(OutputFolderTest, AManifestIsTrustedOnlyWithinItsFolder) {
     write(m_root.path() / "precious", "p");
     write(m_out / "a/b/c", "c");
     json files = json::array();
@@ -173,17 +174,17 @@ TEST_F(OutputFolderTest, AManifestIsBelievedNoFurtherThanItsFolder) {
     EXPECT_TRUE(fs::exists(m_out / "a/b/c"));
     for (const char* text : {"", "{", "[]", "{}", R"({"main": 1, "complete": true, "files": []})"}) {
         write(m_out / Manifest::file_name, text);
-        expect_refusal("no manifest");
+        expect_refusal("is not a manifest");
     }
 }
 
 TEST_F(OutputFolderTest, AReportIsNotReplacedByADiff) {
     make(first);
-    EXPECT_THAT(refusal({"diff.json", {}, {}}), HasSubstr("holds a report.json of Sheer's"));
+    EXPECT_THAT(refusal({"diff.json", {}, {}}), HasSubstr("contains a report.json of Sheer's"));
     EXPECT_EQ(found(), first);
 }
 
-TEST_F(OutputFolderTest, WhatIsNotFinishedLeavesTheOlderReport) {
+TEST_F(OutputFolderTest, AnUnfinishedReportLeavesTheOlderOne) {
     make(first);
     {
         OutputFolder folder(m_out, names());
@@ -196,7 +197,7 @@ TEST_F(OutputFolderTest, WhatIsNotFinishedLeavesTheOlderReport) {
     EXPECT_EQ(found(), first);
 }
 
-TEST_F(OutputFolderTest, ACollisionThatComesLateOverwritesNothing) {
+TEST_F(OutputFolderTest, ALateCollisionOverwritesNothing) {
     make(first);
     OutputFolder folder(m_out, names());
     fill(folder, second);
@@ -210,22 +211,22 @@ TEST_F(OutputFolderTest, ACollisionThatComesLateOverwritesNothing) {
     EXPECT_EQ(Manifest::read(m_out).entries().size(), 4u);
 }
 
-TEST_F(OutputFolderTest, WhatCannotBeMovedIsPutBack) {
+TEST_F(OutputFolderTest, AFailedMoveIsUndone) {
     make(first);
     OutputFolder folder(m_out, names());
     fill(folder, second);
     write(folder.partial() / "extra/x", "1");
-    // Where the folder of the new file would be there is a file.
+    // There is a file with the name of the new file's folder.
     write(m_out / "extra", "theirs");
     EXPECT_THROW(folder.commit(), std::exception);
     folder.discard();
     Files expected = first;
     expected.merge(Files{{"extra", "theirs"}});
     EXPECT_EQ(found(), expected);
-    EXPECT_EQ(refusal(), "") << "the manifest is the older report's again";
+    EXPECT_EQ(refusal(), "") << "the manifest is that of the older report again";
 }
 
-TEST_F(OutputFolderTest, AnIncompleteReportDoesNotTakeThePlaceOfACompleteOne) {
+TEST_F(OutputFolderTest, AnIncompleteReportDoesNotReplaceACompleteOne) {
     make(first, false);
     make(second, false);
     EXPECT_EQ(found(), second) << "neither is complete";
@@ -246,10 +247,10 @@ TEST_F(OutputFolderTest, AnIncompleteReportDoesNotTakeThePlaceOfACompleteOne) {
     make(second);
     Files expected = second;
     expected["incomplete/mine"] = "m";
-    EXPECT_EQ(found(), expected) << "a complete one makes the other superfluous";
+    EXPECT_EQ(found(), expected) << "a complete one replaces the incomplete one";
 }
 
-TEST_F(OutputFolderTest, LeftoversOfTheDeadAreClearedAndTheLivingAreLeftAlone) {
+TEST_F(OutputFolderTest, LeftoversOfDeadProcessesAreRemovedAndLivingOnesAreLeftAlone) {
     write(m_out / ".sheer-partial/lock", "");
     write(m_out / ".sheer-partial/new/images/half.png", "h");
     write(m_out / ".sheer-partial/old/report.json", "o");
@@ -261,12 +262,12 @@ TEST_F(OutputFolderTest, LeftoversOfTheDeadAreClearedAndTheLivingAreLeftAlone) {
     write(m_out / ".sheer-partial/new/report.json", "the other one's");
     const int lock = open((m_out / ".sheer-partial/lock").c_str(), O_RDWR | O_CLOEXEC);
     ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
-    expect_refusal("another process of Sheer's writes into");
+    expect_refusal("another Sheer process is writing into");
     close(lock);
     EXPECT_EQ(refusal(), "");
 }
 
-TEST_F(OutputFolderTest, WhatIsNoFolderOrCannotBeWrittenIsRefused) {
+TEST_F(OutputFolderTest, AFileOrAnUnwritableFolderIsRefused) {
     write(m_out, "a file");
     EXPECT_THAT(refusal(), HasSubstr("out is not a folder"));
     EXPECT_THROW(OutputFolder("", names()), UsageError);

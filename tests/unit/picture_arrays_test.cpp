@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace sheer::picture_arrays_test {
 
 namespace {
@@ -15,7 +17,7 @@ std::size_t texels_of(const PictureArrays& arranged) {
     return texels;
 }
 
-/// Every picture lies in an array at a level of its size, and no two at the same place.
+/// Every picture is in an array at a level of its size, and no two share a place.
 void expect_sound(const PictureArrays& arranged) {
     EXPECT_LE(arranged.arrays.size(), max_picture_arrays);
     EXPECT_LE(texels_of(arranged), max_model_texels);
@@ -54,12 +56,12 @@ TEST(PictureArrays, ScaleTheSmallestOfTooManySizes) {
     EXPECT_EQ(arranged.sizes_px, Sizes({{5, 4}, {5, 4}, {7, 7}, {11, 11}, {13, 13}, {17, 17}, {7, 7}}));
 }
 
-TEST(PictureArrays, HalveWhatIsTooLarge) {
+TEST(PictureArrays, HalveTooLargePictures) {
     EXPECT_EQ(arrange_pictures({{8192, 1024}}).sizes_px, Sizes({{2048, 256}}));
-    // Of five pictures of 4 million texels, four are as many as there may be.
+    // Of five pictures with 4 million texels each, at most four fit.
     expect_sound(arrange_pictures(Sizes(5, {2048, 2048})));
     Sizes many;
-    for (int i = 0; i < 1024; ++i) many.emplace_back(8192 - i, 1 + 7 * i);
+    for (int i = 0; i < 256; ++i) many.emplace_back(8192 - 4 * i, 1 + 28 * i);
     expect_sound(arrange_pictures(many));
 }
 

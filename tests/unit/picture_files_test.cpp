@@ -1,5 +1,5 @@
-// What pictures are read as, beyond plain ones: turned, cropped, odd, damaged. Files are written here chunk by chunk,
-// or by OpenImageIO and then changed.
+// How unusual pictures are read: turned, cropped, odd, damaged. Files are written here chunk by chunk, or by
+// OpenImageIO and then changed.
 #include <gmock/gmock.h>
 
 #include "renderer/assets/picture_file.h"
@@ -48,7 +48,7 @@ std::string replaced(std::string bytes, const std::string& what, const std::stri
     return bytes.replace(at, what.size(), with);
 }
 
-/// 3 x 2, grey: 10 20 30 / 40 50 60.
+/// 3 x 2, gray: 10 20 30 / 40 50 60.
 PngParts numbered() {
     return {.width_px = 3,
             .height_px = 2,
@@ -63,7 +63,7 @@ struct Turn {
     std::vector<int> seen;
 };
 
-/// EXIF 2.3, 4.6.4 A: where the file's first row and first column are seen.
+/// EXIF 2.3, 4.6.4 A: the positions at which the file's first row and first column are displayed.
 const Turn turns[] = {{1, {10, 20, 30, 40, 50, 60}},   // top, left
                       {2, {30, 20, 10, 60, 50, 40}},   // top, right
                       {3, {60, 50, 40, 30, 20, 10}},   // bottom, right
@@ -96,7 +96,7 @@ std::string with_exif(const std::string& jpeg, const std::string& tiff) {
            jpeg.substr(2);
 }
 
-/// OpenImageIO writes EXIF of its own, which comes after ours; take it out by its marker's name.
+/// OpenImageIO writes its own EXIF after ours; remove it by its marker's name.
 std::string jpeg_of(int width_px, int height_px, int channels, const std::vector<std::uint8_t>& values,
                     bool progressive = false) {
     OIIO::ImageSpec spec(width_px, height_px, channels, OIIO::TypeDesc::UINT8);
@@ -113,7 +113,7 @@ std::string jpeg_of(int width_px, int height_px, int channels, const std::vector
 }
 
 TEST(Orientation, OfAJpegTurnsIt) {
-    // Left half dark, right half bright: the file's first row is seen on the right, so dark is at the top.
+    // Left half dark, right half bright: the file's first row is displayed on the right, so dark is at the top.
     std::vector<std::uint8_t> values;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 32; ++x) values.push_back(x < 16 ? 40 : 200);
@@ -126,7 +126,7 @@ TEST(Orientation, OfAJpegTurnsIt) {
     EXPECT_NEAR(picture.image.pixel(0, 1)[0], 200 / 255.0f, 2 / 255.0f);
 }
 
-TEST(Orientation, ThatIsBrokenIsNone) {
+TEST(Orientation, IsIgnoredIfMalformed) {
     const std::string whole = exif_of(6, false);
     std::vector<std::string> broken = {"", "II", exif_of(0, false), exif_of(9, true), "II*\0\xff\xff\xff\xff"s};
     for (const std::size_t length : {9, 12, 24}) broken.push_back(whole.substr(0, length));
@@ -155,7 +155,7 @@ TEST(Png, OfFewBitsWithAPaletteAndTransparencyIsRead) {
     EXPECT_THAT(picture.notes, IsEmpty());
 }
 
-TEST(Png, OfSixteenBitsWithATransparentColourIsRead) {
+TEST(Png, OfSixteenBitsWithATransparentColorIsRead) {
     PngParts parts = {.width_px = 2,
                       .depth = 16,
                       .color_type = 0,
@@ -190,7 +190,7 @@ TEST(Png, WithoutAllOfItsDataIsRefused) {
     EXPECT_THAT(refusal_of(whole.substr(0, data) + png_chunk("IEND", "")), HasSubstr("ends too early"));
 }
 
-/// zlib's own checksum, with that of the chunk made right again: libpng takes it.
+/// A wrong zlib checksum, with a corrected checksum of the chunk: libpng accepts it.
 TEST(Png, WhoseDataHasAnotherChecksumIsRefused) {
     const std::string whole = png_of(numbered());
     std::string packed = deflated(numbered().rows);
@@ -200,7 +200,7 @@ TEST(Png, WhoseDataHasAnotherChecksumIsRefused) {
                 HasSubstr("image data is damaged"));
 }
 
-/// Of a chunk that can be done without, too: without its tRNS a picture is another one.
+/// Also for an ancillary chunk: without its tRNS chunk a picture looks different.
 TEST(Png, WithAWrongChecksumIsRefused) {
     PngParts parts = numbered();
     parts.before_data = png_chunk("tRNS", "\0\x0a"s);
@@ -219,7 +219,7 @@ std::string chrm_of(const std::vector<double>& white_first) {
     return png_chunk("cHRM", data);
 }
 
-TEST(Png, SaysWhatOfItIsNotRead) {
+TEST(Png, SaysWhichPartsAreNotRead) {
     const std::vector<double> rec_709 = {0.3127, 0.329, 0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
     const std::vector<double> adobe = {0.3127, 0.329, 0.64, 0.33, 0.21, 0.71, 0.15, 0.06};
     const std::string linear = png_chunk("gAMA", u32_big(100000)), srgb = png_chunk("sRGB", "\0"s);
@@ -261,8 +261,8 @@ std::vector<std::pair<std::size_t, std::size_t>> scans_of(const std::string& jpe
     return scans;
 }
 
-/// A decoder draws grey from there on and says that all is well.
-TEST(Jpeg, WhoseScanIsCutIsRefused) {
+/// From there on a decoder draws gray and reports success.
+TEST(Jpeg, WithATruncatedScanIsRefused) {
     for (const bool progressive : {false, true}) {
         const std::string jpeg = jpeg_of(64, 64, 3, waves(64), progressive);
         ASSERT_EQ(refusal_of(jpeg), "");
@@ -288,7 +288,7 @@ TEST(Jpeg, ThatLacksScansIsRefused) {
     EXPECT_EQ(refusal_of(jpeg.substr(0, scans.back().second) + "\xff\xd9"), "");
 }
 
-TEST(Jpeg, ThatClaimsMoreThanItHoldsIsRefused) {
+TEST(Jpeg, WithLessDataThanDeclaredIsRefused) {
     std::string jpeg = jpeg_of(16, 16, 3, waves(16));
     jpeg = replaced(jpeg, "\xff\xc0\x00\x11\x08\x00\x10\x00\x10"s, "\xff\xc0\x00\x11\x08\x10\x00\x10\x00"s);
     EXPECT_THAT(refusal_of(jpeg), HasSubstr("JPEG cannot be decoded"));
@@ -299,12 +299,12 @@ TEST(Jpeg, OfOtherKindsIsRefusedByName) {
     const std::string frame = "\xff\xc0\x00\x11\x08"s;
     EXPECT_THAT(refusal_of(replaced(jpeg, frame, "\xff\xc3\x00\x11\x08"s)), HasSubstr("lossless"));
     EXPECT_THAT(refusal_of(replaced(jpeg, frame, "\xff\xc5\x00\x11\x08"s)), HasSubstr("hierarchical"));
-    EXPECT_THAT(refusal_of(replaced(jpeg, frame, "\xff\xc1\x00\x11\x0c"s)), HasSubstr("12 bits a channel"));
+    EXPECT_THAT(refusal_of(replaced(jpeg, frame, "\xff\xc1\x00\x11\x0c"s)), HasSubstr("12 bits per channel"));
     const std::string four = "\xff\xc0\x00\x14\x08\x00\x10\x00\x10\x04"s;
     EXPECT_THAT(refusal_of(replaced(jpeg, "\xff\xc0\x00\x11\x08\x00\x10\x00\x10\x03"s, four)), HasSubstr("CMYK"));
 }
 
-TEST(Jpeg, WithBytesTooManyIsReadWithANote) {
+TEST(Jpeg, WithExtraBytesIsReadWithANote) {
     const std::string jpeg = jpeg_of(16, 16, 3, waves(16));
     EXPECT_THAT(codes_in(jpeg), IsEmpty());
     EXPECT_THAT(codes_in(jpeg + "more"), ElementsAre("trailing-bytes"));
@@ -323,7 +323,7 @@ struct ExrParts {
     int tile_px = 0;
 };
 
-/// Every pixel holds 1, 2, 3 ... in row order, in each of its channels.
+/// The pixels have the values 1, 2, 3 ... in row order, in each channel.
 std::string exr_of(const ExrParts& parts) {
     OIIO::ImageSpec spec(parts.width_px, parts.height_px, static_cast<int>(parts.channels.size()), parts.type);
     spec.x = parts.x;

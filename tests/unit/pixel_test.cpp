@@ -1,15 +1,17 @@
-// What a report tells of one pixel: its values and counts read back from the pictures that the report has.
+// A report's data on one pixel: values and counts read from the report's pictures.
 #include "renderer/files/pixel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <set>
 
 #include "renderer/files/picture_file.h"
-#include "renderer/frame/magma.h"
-#include "renderer/frame/pixel_counts.h"
+#include "renderer/image/magma.h"
+#include "renderer/image/pixel_counts.h"
+#include "tests/unit/schema_walk.h"
 
 namespace sheer::pixel_test {
 namespace {
@@ -67,14 +69,17 @@ class PixelReportTest : public testing::Test {
             {"reference",
              {{"method", "exact"}, {"images", {{"linear", color_image("exact", {0.575f, 0.275f, 0.3f}, true)}}}}},
             {"results", results}};
-        return pixel_report(stack, x, y, run,
-                            [this](const json& image) { return m_pictures.at(image["sha256"].get<std::string>()); });
+        return to_document(
+            pixel_report(stack, x, y, from_document<report::Run>(run),
+                         [this](const report::Picture& picture) { return m_pictures.at(picture.sha256); }));
     }
+
+    static std::string pixel_table(const json& pixel) { return sheer::pixel_table(from_document<pixel::Pixel>(pixel)); }
 
     std::map<std::string, std::string> m_pictures;
 };
 
-TEST_F(PixelReportTest, TheStackIsWeighedAndSummed) {
+TEST_F(PixelReportTest, TheStackIsWeightedAndSummed) {
     const json pixel = report_of(json::array());
     EXPECT_EQ(pixel["x"], x);
     EXPECT_EQ(pixel["y"], y);
@@ -105,7 +110,7 @@ TEST_F(PixelReportTest, ValuesComeFromTheFinestPicture) {
     EXPECT_EQ(pixel["methods"][1]["shaded_reason"], "the report has no picture of it");
 }
 
-/// Every count up to 255 can be read back from its colour.
+/// Every count up to 255 can be read back from its color.
 TEST_F(PixelReportTest, CountsAreReadBackExactly) {
     EXPECT_EQ(std::set(magma().begin(), magma().end()).size(), 256u);
     for (const std::uint32_t full_scale : {1u, 2u, 7u, 255u}) {
@@ -115,14 +120,14 @@ TEST_F(PixelReportTest, CountsAreReadBackExactly) {
             images["saturation"] = count_image("saturation", count, full_scale);
             const json method = report_of(json::array({result("f2bd", {{"threshold", 0.1}}, images)}))["methods"][0];
             ASSERT_EQ(method["shaded"], count) << "of " << full_scale;
-            // A pixel that never saturates needs all it has, which are two.
+            // A pixel that never saturates needs all its fragments, which are two.
             ASSERT_EQ(method["needed"], count == 0 ? 2 : count);
             ASSERT_EQ(method["saturated_at"], count == 0 ? json() : json(count));
         }
     }
 }
 
-TEST_F(PixelReportTest, CountsThatCannotBeToldApartAreNotGuessed) {
+TEST_F(PixelReportTest, CountsThatCannotBeDistinguishedAreNotGuessed) {
     json images = {{"color", color_image("color", {0, 0, 0}, false)}};
     images["shaded"] = count_image("shaded", 17, 256);
     images["saturation"] = count_image("saturation", 17, 256);
@@ -133,8 +138,8 @@ TEST_F(PixelReportTest, CountsThatCannotBeToldApartAreNotGuessed) {
     }
 }
 
-/// Where a report has colours for fewer counts than there are, it has the counts as well.
-TEST_F(PixelReportTest, GreatCountsHaveAPictureOfTheirOwn) {
+/// If a report has fewer colors than counts, it also has a picture of the counts themselves.
+TEST_F(PixelReportTest, GreatCountsHaveASeparatePicture) {
     json images = {{"color", color_image("color", {0, 0, 0}, false)}};
     PixelCounts counts{width_px, height_px, std::vector<std::uint32_t>(6, 0)};
     for (const std::uint32_t count : {0u, 255u, 1001u, 1002u, 70'001u}) {
@@ -187,7 +192,8 @@ TEST_F(PixelReportTest, AnExplanationOfAnotherPictureSaysSo) {
     const json one = result("b2f", json::object(), images);
     const json pixel = report_of(json::array({one, one, one}), stack);
     EXPECT_EQ(pixel["methods"][0]["explanation"].size(), 1u);
-    EXPECT_THAT(pixel["methods"][0]["explanation_reason"].get<std::string>(), HasSubstr("not as in the report"));
+    EXPECT_THAT(pixel["methods"][0]["explanation_reason"].get<std::string>(),
+                HasSubstr("differs from the report's picture"));
     EXPECT_EQ(pixel["methods"][1]["explanation"], json());
     EXPECT_EQ(pixel["methods"][1]["explanation_reason"], "no float targets");
     EXPECT_EQ(pixel["methods"][2]["explanation"], json()) << "only two were drawn again";
@@ -204,7 +210,32 @@ TEST_F(PixelReportTest, AMethodThatDidNotRunSaysWhy) {
     EXPECT_THAT(pixel_table(report_of(json::array({one}))), HasSubstr("unsupported: no float targets"));
 }
 
-TEST_F(PixelReportTest, PicturesThatAreNoneAreErrors) {
+TEST_F(PixelReportTest, MatchesItsDescription) {
+    PixelStack stack = known_stack();
+    stack.opaque = OpaqueFragment{.depth = 0.75, .color = {1, 1, 1}};
+    stack.methods = {{.facts = {number_fact("alpha_sum", 0.75, "The sum.")}, .value = Rgb{0.5, 0.25, 0.31}}};
+    json images = {{"color", color_image("color", {0, 0, 0}, false)}};
+    images["shaded"] = images["saturation"] = count_image("shaded", 17, 256);
+    const json pixel = report_of(json::array({result("f2bd", {{"threshold", 0.1}}, images)}), stack);
+    SchemaWalk walk = SchemaWalk::of<pixel::Pixel>();
+    walk.check(pixel);
+    EXPECT_THAT(walk.missing(), testing::IsEmpty());
+    EXPECT_EQ(to_document(from_document<pixel::Pixel>(pixel)), pixel);
+}
+
+TEST_F(PixelReportTest, AChannelThatIsNotFiniteIsNull) {
+    const float infinite = std::numeric_limits<float>::infinity();
+    const json images = {{"linear", color_image("a", {infinite, 0.25f, 0.5f}, true)}};
+    const json pixel = report_of(json::array({result("b2f", json::object(), images)}));
+    EXPECT_EQ(pixel["methods"][0]["value"], json({nullptr, 0.25, 0.5}));
+    EXPECT_EQ(to_document(from_document<pixel::Pixel>(pixel)), pixel);
+}
+
+TEST_F(PixelReportTest, AMethodWithoutAPictureIsAnError) {
+    EXPECT_THROW(report_of(json::array({result("b2f", json::object(), json::object())})), std::runtime_error);
+}
+
+TEST_F(PixelReportTest, DamagedPicturesAreErrors) {
     EXPECT_THROW(read_pixel("neither", 0, 0), std::runtime_error);
     const std::string png = encode_png(Image8(3, 2));
     EXPECT_THROW(read_pixel(png, 3, 0), std::runtime_error);

@@ -9,7 +9,7 @@
 
 namespace sheer {
 
-/// PNG files chunk by chunk (ISO 15948), so that tests can write what no encoder would.
+/// PNG files chunk by chunk (ISO 15948), so that tests can write files that no encoder would.
 inline std::string u32_big(std::uint32_t value) {
     std::string bytes;
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
@@ -34,11 +34,11 @@ inline std::string deflated(const std::string& bytes) {
 
 struct PngParts {
     std::uint32_t width_px = 1, height_px = 1;
-    int depth = 8, color_type = 2;  ///< 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA
+    int depth = 8, color_type = 2;  ///< 0 gray, 2 RGB, 3 palette, 4 gray and alpha, 6 RGBA
     bool interlaced = false;
     std::string before_data;  ///< whole chunks
-    std::string rows;         ///< with a filter's byte before each
-    std::string after;        ///< behind IEND
+    std::string rows;         ///< each preceded by its filter byte
+    std::string after;        ///< after IEND
 };
 
 inline std::string png_of(const PngParts& parts) {
@@ -49,7 +49,7 @@ inline std::string png_of(const PngParts& parts) {
            png_chunk("IDAT", deflated(parts.rows)) + png_chunk("IEND", "") + parts.after;
 }
 
-/// EXIF data that says an orientation and nothing else, in either order of bytes.
+/// EXIF data with only an orientation, in either byte order.
 inline std::string exif_of(int orientation, bool big_endian) {
     std::string tiff = big_endian ? "MM" : "II";
     const auto put = [&](std::uint32_t value, int bytes) {
@@ -58,7 +58,7 @@ inline std::string exif_of(int orientation, bool big_endian) {
     put(42, 2);
     put(8, 4);
     put(2, 2);
-    // The width, so that the orientation is not the first entry.
+    // The width comes first, so that the orientation is not the first entry.
     for (const auto& [tag, type, value, bytes] :
          {std::array<std::uint32_t, 4>{0x0100, 4, 7, 4}, {0x0112, 3, static_cast<std::uint32_t>(orientation), 2}}) {
         put(tag, 2);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "renderer/core/sha256.h"
 #include "server/http/application.h"
 #include "server/http/service.h"
 #include "store_fixture.h"
@@ -12,7 +13,7 @@ namespace {
 using nlohmann::json;
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
-class PreconditionsTest : public test::StoreTest {
+class PreconditionsTest : public test::WithStore {
   protected:
     PreconditionsTest() { m_service.clock = m_clock; }
 
@@ -26,20 +27,13 @@ class PreconditionsTest : public test::StoreTest {
 
     std::string etag(const std::string& path) { return ask("GET", path).headers.find("ETag").value_or("none"); }
 
-    std::string add_asset(const std::string& bytes) {
-        Asset asset{.sha256 = sha256_hex(bytes), .type = "texture", .media_type = "image/png"};
-        asset.facts = json::object();
-        m_store.add_asset(asset, bytes);
-        return asset.sha256;
-    }
-
-    const std::string m_reports = "/api/v1/reports", m_assets = "/api/v1/assets";
+    const std::string m_reports_path = "/api/v1/reports", m_assets_path = "/api/v1/assets";
     Service m_service{.store = m_store, .ids = m_ids, .clock = {}, .list_devices = {}};
     const Application m_application{make_guard(true, {}), make_router(m_service)};
 };
 
-TEST_F(PreconditionsTest, ADeletionThatMustNotBeHappensNot) {
-    const std::string id = submit(), path = m_reports + "/" + id, tag = etag(path);
+TEST_F(PreconditionsTest, ADeletionWithAnUnsatisfiedConditionDoesNothing) {
+    const std::string id = submit(), path = m_reports_path + "/" + id, tag = etag(path);
     for (const Fields& fields :
          {Fields{{"If-None-Match", "*"}}, Fields{{"If-None-Match", tag}}, Fields{{"If-None-Match", "W/" + tag}},
           Fields{{"If-None-Match", "\"x\", " + tag}}, Fields{{"If-None-Match", "\"x\""}, {"If-None-Match", tag}},
@@ -50,37 +44,37 @@ TEST_F(PreconditionsTest, ADeletionThatMustNotBeHappensNot) {
     }
     EXPECT_EQ(ask("DELETE", path, {{"If-Match", "\"x\", " + tag}}).status, 200);
     EXPECT_EQ(status(id), Status::cancelled);
-    // The first one changed it.
+    // The first request changed it.
     EXPECT_EQ(ask("DELETE", path, {{"If-Match", tag}}).status, 412);
     EXPECT_EQ(ask("DELETE", path, {{"If-Match", "*"}, {"If-None-Match", "\"x\""}}).status, 204);
     EXPECT_EQ(ask("DELETE", path, {{"If-None-Match", "*"}}).status, 404);
 }
 
-TEST_F(PreconditionsTest, AnAssetIsDeletedByItsWholeHashOnly) {
-    const std::string sha256 = add_asset("picture"), path = m_assets + "/" + sha256;
+TEST_F(PreconditionsTest, AnAssetIsDeletedOnlyByItsWholeHash) {
+    const std::string sha256 = add_asset("picture"), path = m_assets_path + "/" + sha256;
     submit("waits", {{"scene", {{"type", "quads"}, {"texture", {{"image", sha256}}}}}});
     for (const std::string& part : {std::string("a"), sha256.substr(0, 63), sha256 + "0", std::string("%20")})
-        EXPECT_EQ(ask("DELETE", m_assets + "/" + part).status, 404) << part;
+        EXPECT_EQ(ask("DELETE", m_assets_path + "/" + part).status, 404) << part;
     EXPECT_EQ(ask("DELETE", path, {{"If-None-Match", "*"}}).status, 412);
     EXPECT_EQ(ask("DELETE", path).status, 409);
-    m_store.remove(lease().id);
+    m_reports.remove(lease().id);
     m_now_ms += m_rules.lease_ms + 1;
-    m_store.lease("another");
+    m_queue.lease("another");
     EXPECT_EQ(ask("DELETE", path, {{"If-Match", "\"" + sha256 + "\""}}).status, 204);
     EXPECT_EQ(ask("DELETE", path).status, 404);
 }
 
-TEST_F(PreconditionsTest, NothingIsQueuedThatMustNotBe) {
+TEST_F(PreconditionsTest, NothingIsQueuedWithAnUnsatisfiedCondition) {
     const std::string spec = R"({"scene": {"type": "quads"}, "methods": ["b2f"]})";
-    EXPECT_EQ(ask("POST", m_reports, {{"If-None-Match", "*"}}, spec).status, 412);
-    EXPECT_EQ(ask("POST", m_reports, {{"If-Match", "\"x\""}}, spec).status, 412);
-    EXPECT_TRUE(m_store.list({}).reports.empty());
-    EXPECT_EQ(ask("POST", m_reports, {{"If-None-Match", "\"x\""}}, spec).status, 202);
+    EXPECT_EQ(ask("POST", m_reports_path, {{"If-None-Match", "*"}}, spec).status, 412);
+    EXPECT_EQ(ask("POST", m_reports_path, {{"If-Match", "\"x\""}}, spec).status, 412);
+    EXPECT_TRUE(m_reports.list({}).reports.empty());
+    EXPECT_EQ(ask("POST", m_reports_path, {{"If-None-Match", "\"x\""}}, spec).status, 202);
     EXPECT_EQ(ask("POST", "/api/v1/specs/validate", {{"If-Match", "*"}}, spec).status, 200);
 }
 
-TEST_F(PreconditionsTest, WhoReadsIsToldWhatHeHas) {
-    const std::string path = m_reports + "/" + submit(), tag = etag(path);
+TEST_F(PreconditionsTest, AReaderWithTheCurrentVersionGetsNotModified) {
+    const std::string path = m_reports_path + "/" + submit(), tag = etag(path);
     for (const char* method : {"GET", "HEAD"}) {
         EXPECT_EQ(ask(method, path, {{"If-None-Match", tag}}).status, 304);
         EXPECT_EQ(ask(method, path, {{"If-None-Match", "*"}}).status, 304);
@@ -88,7 +82,7 @@ TEST_F(PreconditionsTest, WhoReadsIsToldWhatHeHas) {
         EXPECT_EQ(ask(method, path, {{"If-Match", tag}}).status, 200);
         EXPECT_EQ(ask(method, path, {{"If-Match", "\"x\""}}).status, 412);
     }
-    EXPECT_EQ(ask("GET", m_reports + "/x", {{"If-None-Match", "*"}}).status, 404);
+    EXPECT_EQ(ask("GET", m_reports_path + "/x", {{"If-None-Match", "*"}}).status, 404);
     EXPECT_EQ(ask("OPTIONS", path, {{"If-None-Match", "*"}}).status, 204);
 }
 
@@ -97,16 +91,16 @@ TEST_F(PreconditionsTest, ProbesAreAnsweredForAnyHost) {
         EXPECT_EQ(ask("GET", "/healthz", fields).status, 200);
         EXPECT_EQ(ask("HEAD", "/healthz", fields).status, 200);
         EXPECT_EQ(ask("GET", "/readyz", fields).status, 503);
-        EXPECT_EQ(ask("GET", m_reports, fields).status, 421);
+        EXPECT_EQ(ask("GET", m_reports_path, fields).status, 421);
         EXPECT_EQ(ask("DELETE", "/healthz", fields).status, 421);
     }
     EXPECT_EQ(m_application.handling("GET", "/healthz").lane, Lane::at_once);
     EXPECT_TRUE(m_application.handling("GET", "/readyz").is_probe);
-    EXPECT_FALSE(m_application.handling("GET", m_reports).is_probe);
-    EXPECT_EQ(m_application.handling("POST", m_reports + "?x=/healthz").lane, Lane::specs);
+    EXPECT_FALSE(m_application.handling("GET", m_reports_path).is_probe);
+    EXPECT_EQ(m_application.handling("POST", m_reports_path + "?x=/healthz").lane, Lane::specs);
 }
 
-TEST_F(PreconditionsTest, AnAnswerToAWrongSpecIsBounded) {
+TEST_F(PreconditionsTest, TheAnswerToAWrongSpecIsBounded) {
     json spec = {{"scene", {{"type", "quads"}}}, {"methods", {"b2f"}}};
     for (int i = 0; i < 5000; ++i) spec["field " + std::to_string(i)] = i;
     const Response response = ask("POST", "/api/v1/specs/validate", {}, spec.dump());
@@ -122,11 +116,11 @@ TEST_F(PreconditionsTest, ABodyIsOneJsonDocumentWithEachKeyOnce) {
     using namespace std::string_literals;
     const std::string spec = R"({"scene": {"type": "quads"}, "methods": ["b2f"]})";
     for (const std::string& behind : {"\0"s, "\0{}"s, "x"s, "{}"s, ","s})
-        EXPECT_EQ(ask("POST", m_reports, {}, spec + behind).status, 400);
-    const Response twice = ask("POST", m_reports, {}, R"({"scene": {"type": "quads", "count": 1, "count": 2}})");
+        EXPECT_EQ(ask("POST", m_reports_path, {}, spec + behind).status, 400);
+    const Response twice = ask("POST", m_reports_path, {}, R"({"scene": {"type": "quads", "count": 1, "count": 2}})");
     EXPECT_EQ(twice.status, 422);
     EXPECT_EQ(json::parse(std::get<std::string>(twice.body))["errors"][0]["pointer"], "/scene/count");
-    EXPECT_EQ(ask("POST", m_reports, {}, spec + " \n\t").status, 202);
+    EXPECT_EQ(ask("POST", m_reports_path, {}, spec + " \n\t").status, 202);
 }
 
 }  // namespace

@@ -9,8 +9,6 @@
 namespace sheer::provenance_test {
 namespace {
 
-using nlohmann::json;
-
 TEST(Provenance, TheDriverFollowsTheVersion) {
     EXPECT_EQ(driver_of("4.5 (Core Profile) Mesa 22.3.6"), "Mesa 22.3.6");
     EXPECT_EQ(driver_of("4.6.0 NVIDIA 535.183.01"), "NVIDIA 535.183.01");
@@ -33,15 +31,15 @@ TEST_F(Governor, EachIsNamedOnce) {
     set("cpu1", "performance");
     set("cpu2", "powersave");
     std::filesystem::create_directories(folder.path() / "cpuidle");
-    EXPECT_EQ(governor(folder.path()), json({{"governor", "performance, powersave"}}));
+    EXPECT_EQ(governor(folder.path()).value, "performance, powersave");
 }
 
 TEST_F(Governor, WithoutOneThereIsAReason) {
     std::filesystem::create_directories(folder.path() / "cpu0");
     for (const auto& place : {folder.path(), folder.path() / "nowhere"}) {
-        const json found = governor(place);
-        EXPECT_TRUE(found["governor"].is_null());
-        EXPECT_THAT(found["governor_reason"].get<std::string>(), testing::HasSubstr(place.string()));
+        const auto found = governor(place);
+        EXPECT_FALSE(found);
+        EXPECT_THAT(found.reason, testing::HasSubstr(place.string()));
     }
 }
 
@@ -49,10 +47,10 @@ TEST(Provenance, TheLoadIsThreeMeans) {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "loadavg";
     std::ofstream(file) << "1.75 1.50 0.25 3/412 9876\n";
-    EXPECT_EQ(load_average(file), json({1.75, 1.5, 0.25}));
+    EXPECT_EQ(load_average(file), (report::LoadAverage{1.75, 1.5, 0.25}));
     std::ofstream(file) << "1.75 1.50\n";
-    EXPECT_TRUE(load_average(file).is_null());
-    EXPECT_TRUE(load_average(folder.path() / "nowhere").is_null());
+    EXPECT_FALSE(load_average(file));
+    EXPECT_FALSE(load_average(folder.path() / "nowhere"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Models from glTF files that the tests write themselves: what is read, and what is refused with which reason.
+// Models from glTF files that the tests write themselves: accepted ones, and refused ones with their reasons.
 #include "renderer/assets/read_model.h"
 
 #include <gmock/gmock.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "tests/unit/glb_writer.h"
 #include "tests/unit/temporary_folder.h"
 
@@ -28,7 +28,7 @@ GlbWriter one_triangle() {
     return writer;
 }
 
-/// A bit of everything: three alpha modes, vertex colours, normals, an embedded picture, nested nodes, indices.
+/// A bit of everything: three alpha modes, vertex colors, normals, an embedded picture, nested nodes, indices.
 GlbWriter rich() {
     GlbWriter writer;
     const std::vector<std::uint8_t> checker = {255, 0, 0, 255, 0, 255, 0, 0, 0, 0, 255, 0, 255, 255, 255, 255};
@@ -78,7 +78,7 @@ TEST(ReadModel, OneTriangle) {
         EXPECT_THAT(model.parts[0].indices, ElementsAre(0, 1, 2));
         ASSERT_EQ(model.parts[0].vertices.size(), 3u);
         EXPECT_EQ(place(model, model.parts[0].vertices[1]), glm::vec3(1, 0, 0));
-        // The file has no normals, so the triangle's own is taken.
+        // The file has no normals, so the triangle's own normal is used.
         EXPECT_EQ(model.parts[0].vertices[2].normal, glm::vec3(0, 0, 1));
         ASSERT_EQ(model.materials.size(), 1u);
         EXPECT_EQ(model.materials[0].alpha, Material::Alpha::opaque);
@@ -130,7 +130,8 @@ TEST(ReadModel, NestedNodesMoveTurnAndScale) {
     }
 }
 
-/// A mirror reverses the order of the corners, not the side that a surface faces; a squeeze turns normals against it.
+/// Mirroring reverses the order of the corners, but not the side that a surface faces; squeezing turns normals in the
+/// opposite sense.
 TEST(ReadModel, NormalsUnderMirrorAndSqueeze) {
     GlbWriter writer = one_triangle();
     writer.document["nodes"][0]["scale"] = {-1, 1, 1};
@@ -142,7 +143,7 @@ TEST(ReadModel, NormalsUnderMirrorAndSqueeze) {
     const glm::vec3 normal = read(writer.glb()).parts[0].vertices[0].normal;
     EXPECT_NEAR(normal.x, -1 / std::sqrt(5.0), 1e-6);
     EXPECT_NEAR(normal.y, 2 / std::sqrt(5.0), 1e-6);
-    // Squeezed flat, what looked along the plane has no direction.
+    // Squeezed flat, a normal along the plane has no direction.
     writer.document["nodes"][0]["scale"] = {1, 1, 0};
     EXPECT_EQ(read(writer.glb()).parts[0].vertices[0].normal, glm::vec3(0, 0, 0));
 }
@@ -154,7 +155,7 @@ TEST(ReadModel, MatrixIsByColumns) {
     EXPECT_EQ(place(model, model.parts[0].vertices[1]), glm::vec3(5, 7, 7));
 }
 
-/// Section 3.7.2.1: a strip's odd triangles are turned round; a fan's all share the first corner.
+/// Section 3.7.2.1: a strip's odd triangles are reversed; all triangles of a fan share the first corner.
 TEST(ReadModel, StripsAndFans) {
     GlbWriter writer;
     const int positions = writer.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 2, 1, 0, 3, 1, 0, 4, 2, 0}, "VEC3");
@@ -180,7 +181,7 @@ TEST(ReadModel, StripsAndFans) {
 
 TEST(ReadModel, StridesAndWholeNumbers) {
     GlbWriter writer;
-    // Positions as bytes of a stride of 8, over 127; KHR_mesh_quantization allows them.
+    // Positions as bytes with a stride of 8, divided by 127; KHR_mesh_quantization allows them.
     std::vector<std::int8_t> bytes(24);
     bytes[8] = 127;
     bytes[17] = -128;
@@ -195,7 +196,7 @@ TEST(ReadModel, StridesAndWholeNumbers) {
     EXPECT_EQ(place(model, model.parts[0].vertices[1]), glm::vec3(1, 0, 0));
 }
 
-/// What is not used as a base colour is not even looked at.
+/// Pictures that are not used as base colors are not even read.
 TEST(ReadModel, PicturesKeepTheirSizes) {
     GlbWriter writer;
     const int large = writer.texture(make_png(5, 3, std::vector<std::uint8_t>(5 * 3 * 4, 128)));
@@ -230,10 +231,10 @@ TEST(ReadModel, FilesBesideIt) {
     EXPECT_EQ(read_model(with_uri("parts/my%20data.bin"), others).parts.size(), 1u);
     EXPECT_THAT(refusal(with_uri("parts/my%20data.bin")), HasSubstr("needs another file, \"parts/my data.bin\""));
     EXPECT_THAT(refusal(with_uri("missing.bin"), others),
-                HasSubstr("\"missing.bin\", which is not there: " + (folder.path() / "model/missing.bin").string()));
+                HasSubstr("\"missing.bin\", which does not exist: " + (folder.path() / "model/missing.bin").string()));
     for (const char* uri : {"../outside.bin", "link.bin", "/etc/hostname", "parts/../../outside.bin"})
         EXPECT_THAT(refusal(with_uri(uri), others), HasSubstr("not in its folder")) << uri;
-    EXPECT_THAT(refusal(with_uri("http://example.org/a.bin"), others), HasSubstr("not there"));
+    EXPECT_THAT(refusal(with_uri("http://example.org/a.bin"), others), HasSubstr("does not exist"));
     // A .glb may name other files, too.
     EXPECT_THAT(refusal(GlbWriter::wrap(with_uri("a.bin"), "")), HasSubstr("needs another file, \"a.bin\""));
 }
@@ -243,7 +244,7 @@ TEST(ReadModel, CutOffAnywhereIsRefused) {
     for (std::size_t length = 0; length < whole.size(); length += length < 200 ? 1 : 37) {
         EXPECT_NE(refusal(whole.substr(0, length)), "was read") << length;
         if (length < 20) continue;
-        // The same with the length in the header mended.
+        // The same with a corrected length in the header.
         std::string mended = whole.substr(0, length);
         mended.replace(8, 4, little_endian(length, 4));
         EXPECT_NE(refusal(mended), "was read") << length;
@@ -251,7 +252,7 @@ TEST(ReadModel, CutOffAnywhereIsRefused) {
     EXPECT_THAT(refusal(whole.substr(0, 1000)), HasSubstr("cut off: it has 1000 bytes"));
 }
 
-/// A change to a good file, and a part of the reason for which it is refused.
+/// A change to a valid file, and a part of the reason for which it is refused.
 struct Broken {
     std::string name;
     std::function<void(GlbWriter&)> change;
@@ -270,7 +271,7 @@ TEST_P(BrokenModel, IsRefusedWithTheReason) {
     EXPECT_THAT(refusal(writer.glb()), HasSubstr(GetParam().reason));
 }
 
-/// Sets what lies at `pointer`.
+/// Sets the value at `pointer`.
 std::function<void(GlbWriter&)> set(const char* pointer, const json& value) {
     return [pointer, value](GlbWriter& writer) { writer.document[json::json_pointer(pointer)] = value; };
 }
@@ -305,27 +306,27 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"MeshoptTooLarge",
                set("/bufferViews/1/extensions/EXT_meshopt_compression",
                    {{"buffer", 0}, {"byteLength", 40}, {"byteStride", 12}, {"count", huge}, {"mode", "ATTRIBUTES"}}),
-               "stands for more than"},
+               "decodes to more than"},
         Broken{"MeshoptStride",
                set("/bufferViews/1/extensions/EXT_meshopt_compression",
                    {{"buffer", 0}, {"byteLength", 40}, {"byteStride", 3}, {"count", 4}, {"mode", "TRIANGLES"}}),
-               "byteStride cannot be 3 where mode is TRIANGLES"},
+               "byteStride cannot be 3 if mode is TRIANGLES"},
         Broken{"IndexBeyondVertices", set("/accessors/4/bufferView", 1), "is not one of the 4 vertices"},
-        Broken{"IndicesAsFloats", set("/meshes/0/primitives/0/indices", 0), "numbers an element"},
+        Broken{"IndicesAsFloats", set("/meshes/0/primitives/0/indices", 0), "numbers per element"},
         Broken{"IndicesMissing", set("/meshes/0/primitives/0/indices", 99), "indices: there is no accessor 99"},
         Broken{"PositionMissing", set("/meshes/0/primitives/0/attributes", {{"NORMAL", 1}}), "has no POSITION"},
-        Broken{"PositionOfWrongType", set("/meshes/0/primitives/0/attributes/POSITION", 2), "2 numbers an element"},
+        Broken{"PositionOfWrongType", set("/meshes/0/primitives/0/attributes/POSITION", 2), "2 numbers per element"},
         Broken{"AttributeNotThere", set("/meshes/0/primitives/0/attributes/NORMAL", 77), "accessor 77"},
         Broken{"AttributeNegative", set("/meshes/0/primitives/0/attributes/NORMAL", -3),
-               "NORMAL must be a whole number from 0 up"},
-        Broken{"CountsDiffer", set("/accessors/1/count", 3), "has 3 elements, and POSITION 4"},
-        Broken{"AccessorTooLong", set("/accessors/0/count", 5), "reach beyond its buffer view"},
-        Broken{"AccessorVeryLong", set("/accessors/0/count", huge), "reach beyond its buffer view"},
-        Broken{"AccessorOffset", set("/accessors/0/byteOffset", huge), "reach beyond its buffer view"},
+               "NORMAL must be a whole number of at least 0"},
+        Broken{"CountsDiffer", set("/accessors/1/count", 3), "has 3 elements, but POSITION has 4"},
+        Broken{"AccessorTooLong", set("/accessors/0/count", 5), "exceed its buffer view"},
+        Broken{"AccessorVeryLong", set("/accessors/0/count", huge), "exceed its buffer view"},
+        Broken{"AccessorOffset", set("/accessors/0/byteOffset", huge), "exceed its buffer view"},
         Broken{"AccessorEmpty", set("/accessors/0/count", 0), "is empty"},
         Broken{"AccessorOfDoubles", set("/accessors/0/componentType", 5130), "component type 5130"},
         Broken{"AccessorWithoutView", set("/accessors/1/bufferView", -1),
-               "accessor 1: bufferView must be a whole number from 0 up"},
+               "accessor 1: bufferView must be a whole number of at least 0"},
         Broken{"SparseWithoutValues", set("/accessors/1/sparse", {{"count", 1}}),
                "is sparse without indices or values"},
         Broken{"SparseIndexBeyond",
@@ -337,15 +338,15 @@ INSTANTIATE_TEST_SUITE_P(
                set("/accessors/1/sparse", {{"count", 4},
                                            {"indices", {{"bufferView", 5}, {"componentType", 5123}}},
                                            {"values", {{"bufferView", 5}}}}),
-               "reach beyond its buffer view"},
+               "exceed its buffer view"},
         Broken{"ZerosWithoutEnd",
                set("/accessors/1", {{"count", 4000000000u}, {"componentType", 5126}, {"type", "VEC3"}}),
-               "4000000000 elements; at most"},
+               "4000000000 elements; a sparse accessor may have at most"},
         Broken{"StrideTooSmall", set("/bufferViews/1/byteStride", 4), "stride smaller"},
-        Broken{"ViewBeyondBuffer", set("/bufferViews/1/byteLength", 100000), "reaches beyond"},
-        Broken{"ViewOffsetBeyondBuffer", set("/bufferViews/1/byteOffset", huge), "reaches beyond"},
+        Broken{"ViewBeyondBuffer", set("/bufferViews/1/byteLength", 100000), "exceeds"},
+        Broken{"ViewOffsetBeyondBuffer", set("/bufferViews/1/byteOffset", huge), "exceeds"},
         Broken{"ViewOfNoBuffer", set("/bufferViews/1/buffer", 1), "there is no buffer 1"},
-        Broken{"ViewNegative", set("/bufferViews/1/byteOffset", -4), "whole number from 0 up"},
+        Broken{"ViewNegative", set("/bufferViews/1/byteOffset", -4), "whole number of at least 0"},
         Broken{"ImageOfNoView", set("/images/0/bufferView", 55), "there is no buffer view 55"},
         Broken{"ImageNotAPicture", set("/images/0/bufferView", 1), "image 0: "},
         Broken{"ImageElsewhere", set("/images/0", {{"uri", "wood.png"}}), "\"wood.png\""},
@@ -353,7 +354,7 @@ INSTANTIATE_TEST_SUITE_P(
                "material 0: there is no texture 8"},
         Broken{"TextureOfNoImage", set("/textures/0/source", 3), "there is no image 3"},
         Broken{"TextureWithoutCoordinates", set("/meshes/0/primitives/0/attributes", {{"POSITION", 0}}),
-               "has a texture and no TEXCOORD_0"},
+               "has a texture but no TEXCOORD_0"},
         Broken{"MaterialNotThere", set("/meshes/0/primitives/0/material", 9), "there is no material 9"},
         Broken{"AlphaModeUnknown", set("/materials/1/alphaMode", "GLASS"), "not \"GLASS\""},
         Broken{"NodeBelowItself", set("/nodes/0/children", {1}), "must form trees"},
@@ -378,8 +379,7 @@ TEST(ReadModel, BuffersThatAreMissing) {
     document["buffers"] = {{{"byteLength", size}}};
     EXPECT_THAT(refusal(document.dump()), HasSubstr("buffer 0 is missing: it has no uri"));
     EXPECT_THAT(refusal(GlbWriter::wrap(document.dump(), "")), HasSubstr("no binary chunk"));
-    EXPECT_THAT(refusal(GlbWriter::wrap(document.dump(), writer.binary.substr(0, 32))),
-                HasSubstr("of which 32 are there"));
+    EXPECT_THAT(refusal(GlbWriter::wrap(document.dump(), writer.binary.substr(0, 32))), HasSubstr("only 32 exist"));
     document["buffers"].push_back({{"byteLength", size}});
     document["bufferViews"][0]["buffer"] = 1;
     EXPECT_THAT(refusal(GlbWriter::wrap(document.dump(), writer.binary)), HasSubstr("buffer 1 is missing"));
@@ -388,7 +388,7 @@ TEST(ReadModel, BuffersThatAreMissing) {
     EXPECT_NE(refusal(document.dump()), "was read");
 }
 
-TEST(ReadModel, WhatIsNotGltfAtAll) {
+TEST(ReadModel, FilesThatAreNotGltf) {
     EXPECT_THAT(refusal(""), HasSubstr("neither a .glb"));
     EXPECT_THAT(refusal("\x89PNG\r\n\x1a\n"), HasSubstr("neither a .glb"));
     EXPECT_THAT(refusal("glTF"), HasSubstr("ends within its header"));
@@ -404,11 +404,11 @@ TEST(ReadModel, WhatIsNotGltfAtAll) {
     std::string bytes = one_triangle().glb();
     const std::size_t chunk = bytes.size() - 36 - 8;
     bytes.replace(chunk, 4, little_endian(44, 4));
-    EXPECT_THAT(refusal(bytes), HasSubstr("chunk 1 of the file has 44 bytes, of which 36 are there"));
+    EXPECT_THAT(refusal(bytes), HasSubstr("chunk 1 of the file has 44 bytes, but only 36 are left"));
 }
 
-/// Small files that ask for much: nodes may repeat a mesh, and accessors a buffer view.
-TEST(ReadModel, LimitsHoldBeforeMemoryIsTaken) {
+/// Small files that need much memory: nodes may repeat a mesh, and accessors a buffer view.
+TEST(ReadModel, LimitsApplyBeforeMemoryIsAllocated) {
     GlbWriter writer;
     const int positions = writer.accessor(std::vector<float>(299997), "VEC3");
     const int mesh = writer.mesh({{"POSITION", positions}}, -1, -1);
@@ -419,8 +419,8 @@ TEST(ReadModel, LimitsHoldBeforeMemoryIsTaken) {
     EXPECT_THAT(refusal(many.glb()), HasSubstr("100001 cameras"));
 }
 
-/// What the exporters of this world write, though it is not quite glTF.
-TEST(ReadModel, SlipsOfExportersAreRead) {
+/// Files of common exporters that are not quite valid glTF.
+TEST(ReadModel, MistakesOfExportersAreAccepted) {
     const std::string whole = rich().glb();
     const Model trailing = read(whole + "more");
     EXPECT_EQ(trailing.parts.size(), 3u);
@@ -440,8 +440,8 @@ TEST(ReadModel, SlipsOfExportersAreRead) {
     EXPECT_THAT(refusal(document.dump()), HasSubstr("scene must be a whole number"));
 }
 
-/// Lists that are not drawn may hold anything.
-TEST(ReadModel, WhatIsNotDrawnCannotRefuseAFile) {
+/// Lists that are not drawn may contain anything.
+TEST(ReadModel, UnusedPartsCannotMakeAFileInvalid) {
     GlbWriter writer = one_triangle();
     writer.document["animations"] = {{{"channels", 7}}};
     writer.document["skins"] = {{{"joints", "none"}}};
@@ -459,8 +459,8 @@ TEST(ReadModel, WhatIsNotDrawnCannotRefuseAFile) {
                                                      "cameras-ignored cameras"));
 }
 
-/// Whatever a file holds, it is read or refused.
-TEST(ReadModel, MutationsNeverDoHarm) {
+/// Whatever a file contains, it is read or refused.
+TEST(ReadModel, MutationsAreReadOrRefused) {
     Random random(1);
     const std::vector<std::string> good = {rich().glb(), rich().gltf(), one_triangle().glb()};
     int refused = 0;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <bit>
 #include <cmath>
@@ -82,7 +83,7 @@ TEST(Nrrd, Uint8IsKeptAsItIs) {
     EXPECT_TRUE(volume.floats.empty());
 }
 
-TEST(Nrrd, Uint16OfEitherEndGoesFromItsLeastToItsGreatest) {
+TEST(Nrrd, Uint16OfEitherByteOrderIsScaledToItsRange) {
     const std::string fields = "type: ushort\ndimension: 3\nsizes: 2 2 1\nencoding: raw\nendian: ";
     // 2, 1026, 514, 258.
     const std::vector<float> expected = {0, 1, 0.5f, 0.25f};
@@ -92,14 +93,14 @@ TEST(Nrrd, Uint16OfEitherEndGoesFromItsLeastToItsGreatest) {
                 Pointwise(FloatNear(1e-7f), expected));
 }
 
-/// -2, 0 and 6: the least is 0 and the greatest 1.
-TEST(Nrrd, Int16GoesFromItsLeastToItsGreatest) {
+/// -2, 0 and 6: the least becomes 0 and the greatest 1.
+TEST(Nrrd, Int16IsScaledToItsRange) {
     const Volume volume = read(nrrd("type: int16\ndimension: 3\nsizes: 3 1 1\nencoding: raw\nendian: big\n",
                                     text_of({0xff, 0xfe, 0, 0, 0, 6})));
     EXPECT_THAT(volume.floats, ElementsAre(0, 0.25f, 1));
 }
 
-TEST(Nrrd, FloatsInGzipGoFromTheirLeastToTheirGreatest) {
+TEST(Nrrd, FloatsInGzipAreScaledToTheirRange) {
     const Volume volume =
         read(nrrd("type: float\ndimension: 3\nsizes: 1 2 2\nencoding: gzip\nendian: little\n"
                   "space: left-posterior-superior\nspace directions: (3,0,4) (0,-2,0) (0, 0, 0.25)\n",
@@ -110,7 +111,7 @@ TEST(Nrrd, FloatsInGzipGoFromTheirLeastToTheirGreatest) {
     EXPECT_EQ(volume.spacing, glm::dvec3(5, 2, 0.25));
 }
 
-TEST(Nrrd, WhereAllFloatsAreEqualTheyAre0) {
+TEST(Nrrd, EqualFloatsBecome0) {
     EXPECT_THAT(read(nrrd("type: float\ndimension: 3\nsizes: 1 1 2\nencoding: gz\nendian: little\n",
                           gzipped(floats_little({7, 7}))))
                     .floats,
@@ -141,14 +142,14 @@ TEST_P(BrokenNrrd, IsRefusedWithTheReason) {
     for (const bool described : {false, true}) {
         try {
             described ? (void)describe_nrrd(GetParam().bytes) : (void)read(GetParam().bytes);
-            FAIL() << "it is taken";
+            FAIL() << "it is accepted";
         } catch (const AssetError& error) {
             EXPECT_THAT(error.what(), HasSubstr(GetParam().reason));
         }
     }
 }
 
-/// Four uint8 voxels, with a field more or in place of the usual one.
+/// Four uint8 voxels, with an additional or changed field.
 std::string with(const std::string& name, const std::string& value, const std::string& data = "abcd") {
     std::string fields;
     bool there = false;
@@ -176,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"other_file", "P6 2 2 255\n", "not an NRRD file"}, Broken{"empty", "", "not an NRRD file"},
         Broken{"endless_header", "NRRD0004\ntype: uint8\n", "has no end"},
         Broken{"huge_header", "NRRD0004\n" + std::string(100000, 'x') + "\n\n", "has no end"},
-        Broken{"no_field", nrrd("type uint8\n", ""), "is no field"},
+        Broken{"no_field", nrrd("type uint8\n", ""), "is not a field"},
         Broken{"twice", with("sizes ", "2 2 1"), "\"sizes\" twice"},
         Broken{"detached", with("data file", "head.raw"), "its data in another file, \"head.raw\""},
         Broken{"detached_without_a_blank_line",
@@ -185,14 +186,14 @@ INSTANTIATE_TEST_SUITE_P(
                "its data in another file, \"a.raw\""},
         Broken{"detached_list", with("datafile", "LIST"), "several other files"},
         Broken{"detached_numbered", with("data file", "a%03d.raw 1 2 1"), "several other files"},
-        Broken{"skipped_lines", with("line skip", "1"), "leaves no lines"},
-        Broken{"skipped_bytes", with("byte skip", "5"), "leaves no bytes"},
+        Broken{"skipped_lines", with("line skip", "1"), "skips all the lines"},
+        Broken{"skipped_bytes", with("byte skip", "5"), "leaves too few bytes"},
         Broken{"skipped_byte", with("byte skip", "1"), "holds 3 bytes of voxels"},
         Broken{"skip_of_less", with("byte skip", "-2"), "must be at least -1"},
         Broken{"lines_of_less", with("line skip", "-1"), "must be at least 0"},
         Broken{"last_bytes_of_text",
                nrrd("type: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: text\nbyte skip: -1\n", "1 2"),
-               "the encoding raw alone"},
+               "only with the encoding raw"},
         Broken{"no_type", with("type", ""), "no field \"type\""},
         Broken{"no_sizes", with("sizes", ""), "no field \"sizes\""},
         Broken{"no_encoding", with("encoding", ""), "no field \"encoding\""},
@@ -200,21 +201,22 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"block", with("type", "block"), "of type \"block\""},
         Broken{"not_text", with("type", "\xff"), "of type \"?\""},
         Broken{"zrl", with("encoding", "zrl"), "encoding \"zrl\""},
-        Broken{"no_number", with("encoding", "ascii", "1 2 x 4"), "holds \"x\", which is no uint8"},
-        Broken{"number_too_large", with("encoding", "ascii", "1 2 256 4"), "holds \"256\", which is no uint8"},
-        Broken{"fraction_of_text", with("encoding", "ascii", "1 2 0.5 4"), "holds \"0.5\", which is no uint8"},
-        Broken{"text_too_short", with("encoding", "ascii", "1 2 3"), "holds 3 voxels; the sizes say 4"},
+        Broken{"no_number", with("encoding", "ascii", "1 2 x 4"), "holds \"x\", which is not of type uint8"},
+        Broken{"number_too_large", with("encoding", "ascii", "1 2 256 4"), "holds \"256\", which is not of type uint8"},
+        Broken{"fraction_of_text", with("encoding", "ascii", "1 2 0.5 4"), "holds \"0.5\", which is not of type uint8"},
+        Broken{"text_too_short", with("encoding", "ascii", "1 2 3"), "holds 3 voxels, but the sizes require 4"},
         Broken{"text_too_long", with("encoding", "text", "1 2 3 4 5"), "more than 4 voxels"},
-        Broken{"no_hex", with("encoding", "hex", "0g"), "holds \"g\", which is no digit"},
+        Broken{"no_hex", with("encoding", "hex", "0g"), "holds \"g\", which is not a digit"},
         Broken{"half_hex", with("encoding", "hex", "0"), "ends within a byte"},
         Broken{"hex_too_long", with("encoding", "hex", "0011223344"), "holds 5 bytes of voxels"},
         Broken{"no_bzip2", with("encoding", "bzip2"), "bzip2 data is damaged"},
         Broken{"bzip2_cut_off", with("encoding", "bz2", cut(bzip2ed("abcd"), 3)), "bzip2 data ends too early"},
-        Broken{"bzip2_too_short", with("encoding", "bz2", bzip2ed("abc")), "holds 3 bytes of voxels; the sizes say 4"},
+        Broken{"bzip2_too_short", with("encoding", "bz2", bzip2ed("abc")),
+               "holds 3 bytes of voxels, but the sizes require 4"},
         Broken{"bzip2_too_long", with("encoding", "bz2", bzip2ed("abcde")), "more than the 4 bytes"},
         Broken{"bzip2_and_more", with("encoding", "bz2", bzip2ed("abcd") + "x"), "more than the 4 bytes"},
         Broken{"vectors", with("kinds", "vector domain domain"), "an axis of the kind \"vector\""},
-        Broken{"colours", with("kinds", "RGB-color space space"), "an axis of the kind \"RGB-color\""},
+        Broken{"colors", with("kinds", "RGB-color space space"), "an axis of the kind \"RGB-color\""},
         Broken{"movie", with("kinds", "domain domain time"), "an axis of the kind \"time\""},
         Broken{"in_one_plane", with("space directions", "(1,0,0) (0,1,0) (1,1,0)"), "in one plane"},
         Broken{"two_dimensions", with("dimension", "2"), "has 2 dimensions"},
@@ -227,20 +229,21 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"negative", with("sizes", "2 -2 -1"), "each side has 1 to 1024"},
         Broken{"too_wide", with("sizes", "1025 1 1"), "each side has 1 to 1024"},
         Broken{"too_much", with("sizes", "1024 1024 513"), "takes 513 MiB"},
-        Broken{"too_short", with("sizes", "2 2 2"), "holds 4 bytes of voxels; 2 x 2 x 2 of type uint8 are 8"},
-        Broken{"too_long", with("sizes", "1 1 1"), "holds 4 bytes of voxels; 1 x 1 x 1 of type uint8 are 1"},
+        Broken{"too_short", with("sizes", "2 2 2"), "holds 4 bytes of voxels, but 2 x 2 x 2 of type uint8 are 8"},
+        Broken{"too_long", with("sizes", "1 1 1"), "holds 4 bytes of voxels, but 1 x 1 x 1 of type uint8 are 1"},
         Broken{"no_endian", nrrd("type: short\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n", "abcd"), "\"endian\""},
         Broken{"odd_endian", nrrd("type: short\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: middle\n", "abcd"),
-               "neither big nor little"},
-        Broken{"flat", with("spacings", "1 0 1"), "\"spacings\" gives distances"},
-        Broken{"not_a_number", with("spacings", "1 nan 1"), "\"spacings\" gives distances"},
+               "must be big or little"},
+        Broken{"flat", with("spacings", "1 0 1"), "\"spacings\" has unusable distances"},
+        Broken{"not_a_number", with("spacings", "1 nan 1"), "\"spacings\" has unusable distances"},
         Broken{"no_direction", with("space directions", "none (0,1,0) (0,0,1)"), "three entries"},
         Broken{"direction_of_two", with("space directions", "(1,0) (0,1,0) (0,0,1)"), "three entries, not 2"},
         Broken{"no_gzip", with("encoding", "gzip"), "damaged"},
         Broken{"gzip_cut_off", with("encoding", "gzip", cut(gzipped("abcd"), 9)), "ends too early"},
         Broken{"gzip_without_its_end", with("encoding", "gzip", cut(gzipped("abcd"), 4)), "ends too early"},
         Broken{"gzip_of_nothing", with("encoding", "gzip", ""), "ends too early"},
-        Broken{"gzip_too_short", with("encoding", "gzip", gzipped("abc")), "holds 3 bytes of voxels; the sizes say 4"},
+        Broken{"gzip_too_short", with("encoding", "gzip", gzipped("abc")),
+               "holds 3 bytes of voxels, but the sizes require 4"},
         Broken{"gzip_too_long", with("encoding", "gzip", gzipped(std::string(1000000, 'a'))), "more than the 4 bytes"},
         Broken{"gzip_and_more", with("encoding", "gzip", gzipped("abcd") + "x"), "more than the 4 bytes"},
         Broken{"infinite",
@@ -253,7 +256,7 @@ RawVolume raw_of(const std::string& voxel, bool big_endian = false) {
     return {.size = {2, 1, 1}, .spacing = {1, 2, 3}, .voxel = voxel, .big_endian = big_endian};
 }
 
-TEST(RawVolumes, HoldWhatTheSpecSays) {
+TEST(RawVolumes, MatchTheSpec) {
     const Volume bytes = read_volume(text_of({3, 255}), {.raw = raw_of("uint8"), .range = std::nullopt});
     EXPECT_THAT(bytes.bytes, ElementsAre(3, 255));
     EXPECT_EQ(bytes.spacing, glm::dvec3(1, 2, 3));
@@ -267,8 +270,8 @@ struct TypeRow {
     glm::dvec2 numbers;
 };
 
-/// Two numbers of each type, written out byte by byte in either order. The range begins 1 below the first and ends 3
-/// over the second.
+/// Two numbers of each type, byte by byte in either order. The range begins 1 below the first and ends 3 above the
+/// second.
 TEST(RawVolumes, HaveEightTypesOfVoxels) {
     const TypeRow rows[] = {
         {"int8", {0x80, 0x7f}, {0x80, 0x7f}, {-128, 127}},
@@ -342,7 +345,7 @@ TEST(NrrdSkips, AreLeftOut) {
     EXPECT_THAT(with_skips("byteskip: 3\n", "raw", "abcxy"), ElementsAre('x', 'y'));
     EXPECT_THAT(with_skips("line skip: 2\n", "raw", "one\ntwo\nxy"), ElementsAre('x', 'y'));
     EXPECT_THAT(with_skips("lineskip: 1\nbyteskip: 2\n", "raw", "one\nabxy"), ElementsAre('x', 'y'));
-    // In a compressed stream the bytes are skipped within it.
+    // In a compressed stream, the bytes are skipped after decompression.
     EXPECT_THAT(with_skips("byte skip: 3\n", "gzip", gzipped("abcxy")), ElementsAre('x', 'y'));
     EXPECT_THAT(with_skips("line skip: 1\n", "ascii", "x and y\n120 121"), ElementsAre('x', 'y'));
 }
@@ -362,12 +365,14 @@ TEST(NrrdRange, IsNoted) {
     };
     const std::string file = typed("int", "ascii", "-1024 0 7 3071");
     EXPECT_THAT(note(read(file)), HasSubstr("from -1024 to 3071, the least and the greatest"));
-    EXPECT_THAT(note(read(file, glm::dvec2(0, 80.5))), HasSubstr("from 0 to 80.5 become 0 to 1, as the field range"));
+    EXPECT_THAT(note(read(file, glm::dvec2(0, 80.5))),
+                HasSubstr("from 0 to 80.5 become 0 to 1, as set by the field range"));
     EXPECT_THAT(note(read(typed("uchar", "ascii", "9 9 9 9"))), HasSubstr("All voxels are 9"));
     EXPECT_THAT(values_of(read(typed("uchar", "ascii", "9 9 9 9"))), ElementsAre(0, 0, 0, 0));
 }
 
-/// A number far outside the range does not take the digits of the others, and the span of doubles may pass their own.
+/// A number far outside the range does not reduce the precision of the others, and the span may exceed the greatest
+/// double.
 TEST(NrrdRange, KeepsTheDigitsInside) {
     const Volume outlier = read(typed("double", "text", "1e300 1 2 3"), glm::dvec2(1, 3));
     EXPECT_FLOAT_EQ(outlier.floats[2], 0.5f);
@@ -437,12 +442,12 @@ TEST(NrrdAxes, PutTheVoxelsInOrder) {
 }
 
 TEST(NrrdAxes, AreNeverMirrored) {
-    // By 60 degrees about (1, 1, 1), where two orders of the axes are as near.
+    // By 60 degrees about (1, 1, 1), for which two orders of the axes are equally near.
     const Volume volume =
         read(nrrd("type: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\nspace directions: "
                   "(0.6667,0.6667,-0.3333) (-0.3333,0.6667,0.6667) (0.6667,-0.3333,0.6667)\n",
                   "abcdefgh"));
-    // The determinant of the steps along the file's axes, in the scene, is over 0 where nothing is mirrored.
+    // The determinant of the steps along the file's axes, in the scene, is over 0 if nothing is mirrored.
     const auto place_of = [&](char voxel) {
         const auto at = std::ranges::find(volume.bytes, static_cast<std::uint8_t>(voxel)) - volume.bytes.begin();
         return glm::dvec3(at & 1, at >> 1 & 1, at >> 2);

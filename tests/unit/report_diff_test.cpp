@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 
-#include "renderer/errors.h"
+#include "renderer/core/errors.h"
+#include "renderer/core/sha256.h"
 #include "renderer/files/diff.h"
 #include "renderer/files/picture_file.h"
+#include "renderer/files/report_document.h"
 #include "tests/unit/map_sink.h"
+#include "tests/unit/schema_walk.h"
 
 namespace sheer::report_diff_test {
 namespace {
@@ -66,27 +69,42 @@ class ReportDiff : public testing::Test {
     json& result(json& report, std::size_t index) { return report["runs"][0]["results"][index]; }
 
     json diff(const DiffOptions& options = {}) {
-        const auto read = [this](const json& picture) { return m_files.at(picture["url"]); };
-        return diff_reports({a, read}, {b, read}, options);
+        const auto read = [this](const report::Picture& picture) { return m_files.at(picture.url); };
+        const report::Report of_a = read_report(a), of_b = read_report(b);
+        return to_document(diff_reports({of_a, read}, {of_b, read}, options));
     }
+
+    static bool is_worse(const json& diff) { return sheer::is_worse(from_document<diff::Diff>(diff)); }
+    static std::string diff_table(const json& diff) { return sheer::diff_table(from_document<diff::Diff>(diff)); }
 
     json of(std::size_t index, const char* part) { return diff()["runs"][0]["results"][index][part]; }
 
-    std::vector<std::string> conflicts() {
+    std::vector<std::string> conflicts(const std::vector<std::string>& allow = {}) {
         std::vector<std::string> pointers;
         try {
-            diff();
+            diff({.allow = allow});
         } catch (const SpecError& wrong) {
             for (const FieldError& error : wrong.errors()) pointers.push_back(error.pointer);
         }
         return pointers;
     }
 
+    /// The pointers that the refusal offers to allow.
+    std::vector<std::string> offered(const std::vector<std::string>& allow = {}) {
+        try {
+            diff({.allow = allow});
+        } catch (const DiffConflict& conflict) {
+            return conflict.allowable();
+        }
+        ADD_FAILURE() << "it was not refused";
+        return {};
+    }
+
     json a, b;
     std::map<std::string, std::string> m_files;
 };
 
-TEST_F(ReportDiff, OfTheSameReportIsNothing) {
+TEST_F(ReportDiff, OfTheSameReportIsEmpty) {
     const json same = diff();
     EXPECT_EQ(same["differences"], json::array());
     EXPECT_EQ(same["summary"]["pictures"], json({{"identical", 4}, {"different", 0}, {"not examined", 0}}));
@@ -94,7 +112,7 @@ TEST_F(ReportDiff, OfTheSameReportIsNothing) {
     EXPECT_FALSE(is_worse(same));
 }
 
-TEST_F(ReportDiff, PicturesAreHeldAgainstEachOther) {
+TEST_F(ReportDiff, PicturesAreComparedWithEachOther) {
     Image8 changed(4, 2);
     changed.pixel(2, 1)[1] = 51;
     changed.pixel(1, 0)[0] = 3;
@@ -117,8 +135,8 @@ TEST_F(ReportDiff, PicturesAreHeldAgainstEachOther) {
     EXPECT_THAT(diff_table(whole), HasSubstr("different"));
 }
 
-TEST_F(ReportDiff, OtherBytesOfTheSamePixelsAreIdentical) {
-    // An ancillary chunk before the end: a comment of no letters, CRC of "tEXt" and a zero.
+TEST_F(ReportDiff, DifferentBytesOfTheSamePixelsAreIdentical) {
+    // An ancillary chunk before the end: an empty comment, CRC of "tEXt" and a zero.
     json& picture = result(b, 1)["images"]["color"];
     std::string png = m_files.at(picture["url"]);
     constexpr std::size_t end_chunk_bytes = 12;
@@ -139,7 +157,7 @@ TEST_F(ReportDiff, OtherBytesOfTheSamePixelsAreIdentical) {
     EXPECT_EQ(of(1, "picture")["differing_pixels"], 0);
 }
 
-TEST_F(ReportDiff, AMethodIsSlowerWhereItsTimeAndItsRatioSaySo) {
+TEST_F(ReportDiff, AMethodIsSlowerIfItsTimeAndItsRatioSaySo) {
     result(b, 1)["timing"] = timing(13);
     const json time = of(1, "time");
     EXPECT_NEAR(time["absolute"]["value"].get<double>(), 1 / 1.3, 0.01);
@@ -153,7 +171,7 @@ TEST_F(ReportDiff, AMethodIsSlowerWhereItsTimeAndItsRatioSaySo) {
     EXPECT_FALSE(is_worse(diff())) << "faster is not worse";
 }
 
-TEST_F(ReportDiff, ASlowerMachineIsNoSlowerMethod) {
+TEST_F(ReportDiff, ASlowerMachineDoesNotMakeAMethodSlower) {
     for (std::size_t i = 0; i < 3; ++i) result(b, i)["timing"] = timing(15);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(of(i, "time")["absolute"]["verdict"], "slower");
@@ -161,13 +179,13 @@ TEST_F(ReportDiff, ASlowerMachineIsNoSlowerMethod) {
         EXPECT_FALSE(of(i, "time")["reason"].is_null());
     }
     EXPECT_FALSE(is_worse(diff()));
-    // Between devices there is only the time.
+    // Between different devices only the time counts.
     b["device"]["cpu"] = "another";
     EXPECT_EQ(of(0, "time")["verdict"], "slower");
     EXPECT_EQ(diff()["same_device"], false);
 }
 
-TEST_F(ReportDiff, AFasterBaselineMakesNoOtherMethodSlower) {
+TEST_F(ReportDiff, AFasterBaselineDoesNotMakeOtherMethodsSlower) {
     result(b, 0)["timing"] = timing(5);
     const json time = of(1, "time");
     EXPECT_EQ(time["relative"]["verdict"], "slower");
@@ -181,10 +199,10 @@ TEST_F(ReportDiff, TheNoiseOfBothReportsCounts) {
     a["runs"][0]["noise_floor"]["factor"] = b["runs"][0]["noise_floor"]["factor"] = 1.15;
     EXPECT_EQ(of(1, "time")["reason"], "inside the noise floor") << "1.15 times 1.15 is over 1.3";
     b["runs"][0]["noise_floor"]["factor"] = nullptr;
-    EXPECT_EQ(of(2, "time")["verdict"], "not resolved") << "null is infinite";
+    EXPECT_EQ(of(2, "time")["verdict"], "not resolved") << "null means infinite";
 }
 
-TEST_F(ReportDiff, ClocksThatDifferLeaveTheWallClock) {
+TEST_F(ReportDiff, IfClocksDifferTheWallClockIsUsed) {
     json& timing_b = result(b, 1)["timing"];
     timing_b["clock"] = "gpu";
     for (json& sample : timing_b["samples"]) sample = sample.get<double>() / 2;
@@ -192,7 +210,7 @@ TEST_F(ReportDiff, ClocksThatDifferLeaveTheWallClock) {
     EXPECT_EQ(of(1, "time")["absolute"]["value"], 1.0);
 }
 
-TEST_F(ReportDiff, WhatTookNoTimeIsNotResolved) {
+TEST_F(ReportDiff, TimesOfZeroAreNotResolved) {
     for (json& sample : result(b, 1)["timing"]["samples"]) sample = 0;
     EXPECT_TRUE(of(1, "time")["absolute"].is_null());
     EXPECT_EQ(of(1, "time")["verdict"], "not resolved");
@@ -215,15 +233,19 @@ TEST_F(ReportDiff, DifferencesThatLeaveThePicturesAloneAreListed) {
     b["spec"]["scene"]["newer"] = 1;
     b["provenance"]["commit"] = "def";
     b["provenance"]["rerun"] = "sheer compare b.json";
-    a["device"]["load"] = {1, 2};
-    b["device"]["load"] = {1, 3};
+    b["device"]["vendor"] = "another";
+    a["provenance"]["load"] = {{"start", {1, 2, 3}}, {"end", nullptr}};
+    b["provenance"]["load"] = {{"start", {1, 3, 3}}, {"end", nullptr}};
     std::vector<std::string> pointers;
     const json differences = diff()["differences"];
     for (const json& one : differences) pointers.push_back(one["pointer"]);
-    EXPECT_THAT(pointers,
-                ElementsAre("/spec/scene/newer", "/spec/timing/rounds", "/device/load", "/provenance/commit"));
+    EXPECT_THAT(pointers, ElementsAre("/spec/scene/newer", "/spec/timing/rounds", "/device/vendor",
+                                      "/provenance/commit", "/provenance/load/start"));
     EXPECT_EQ(differences[0], json({{"pointer", "/spec/scene/newer"}, {"a", nullptr}, {"b", 1}}));
     EXPECT_EQ(diff()["b"]["commit"], "def");
+    // An older report does not mention it.
+    b["provenance"]["cores"] = 2;
+    EXPECT_EQ(diff()["differences"][4], json({{"pointer", "/provenance/cores"}, {"a", nullptr}, {"b", 2}}));
 }
 
 TEST_F(ReportDiff, AFileThatChangedIsNamed) {
@@ -231,8 +253,8 @@ TEST_F(ReportDiff, AFileThatChangedIsNamed) {
         return {{"pointer", "/scene/model"}, {"name", name}, {"of", nullptr}, {"sha256", sha256}, {"bytes", bytes}};
     };
     a["files"] = {file("same.bin", "00", 1), file("glass.gltf", "aa", 10), file("old.bin", "cc", 3)};
-    EXPECT_TRUE(diff()["differences"].empty()) << "older reports do not say what they drew from";
-    // In another order, since it is by their names that they are the same.
+    EXPECT_TRUE(diff()["differences"].empty()) << "older reports do not list their files";
+    // In another order, since files are matched by name.
     b["files"] = {file("glass.gltf", "bb", 12), file("same.bin", "00", 1), file("new.bin", "dd", 4)};
     const json changed = diff();
     EXPECT_EQ(changed["differences"],
@@ -242,7 +264,7 @@ TEST_F(ReportDiff, AFileThatChangedIsNamed) {
     const std::string table = diff_table(changed);
     EXPECT_THAT(table, HasSubstr("The file glass.gltf (/scene/model): 10 bytes, SHA-256 aa | 12 bytes, SHA-256 bb\n"));
     EXPECT_THAT(table, HasSubstr("The file new.bin (/scene/model): - | 4 bytes, SHA-256 dd\n"));
-    // Where the spec lies is no difference.
+    // The path of the spec is not a difference.
     a["provenance"]["spec"] = "/one/spec.json";
     b["provenance"]["spec"] = "/two/spec.json";
     EXPECT_EQ(diff()["differences"].size(), 3u);
@@ -258,11 +280,94 @@ TEST_F(ReportDiff, MethodsOfOnlyOneAreListed) {
     EXPECT_FALSE(is_worse(less));
 }
 
-TEST_F(ReportDiff, SpecsOfOtherPicturesAreRefusedByPointer) {
+TEST_F(ReportDiff, SpecsOfDifferentPicturesAreRefusedByPointer) {
     b["spec"]["image"]["width"] = 8;
     b["spec"]["scene"]["count"] = 4;
     b["spec"]["methods"][2]["id"] = "f2bx";
     EXPECT_THAT(conflicts(), ElementsAre("/spec/methods/2/id", "/spec/image/width", "/spec/scene/count"));
+}
+
+TEST_F(ReportDiff, AllowedDifferencesAreComparedAndStayListed) {
+    a["spec"]["scene"]["shading"] = {{"glsl", "one"}};
+    b["spec"]["scene"]["shading"] = {{"glsl", "two"}};
+    b["spec"]["timing"]["rounds"] = 20;
+    Image8 changed(4, 2);
+    changed.pixel(0, 0)[0] = 9;
+    result(b, 1)["images"]["color"] = image(changed);
+    EXPECT_THAT(conflicts(), ElementsAre("/spec/scene/shading/glsl"));
+    EXPECT_THAT(offered(), ElementsAre("/scene/shading/glsl"));
+    // The field itself, the object that contains it, and the whole spec.
+    for (const char* pointer : {"/scene/shading/glsl", "/scene/shading", "/scene", ""}) {
+        const json allowed = diff({.allow = {pointer}});
+        EXPECT_EQ(allowed["differences"],
+                  json::array({{{"pointer", "/spec/scene/shading/glsl"}, {"a", "one"}, {"b", "two"}, {"allowed", true}},
+                               {{"pointer", "/spec/timing/rounds"}, {"a", 6}, {"b", 20}}}))
+            << pointer;
+        EXPECT_EQ(allowed["summary"]["pictures"], json({{"identical", 3}, {"different", 1}, {"not examined", 0}}));
+        EXPECT_TRUE(is_worse(allowed)) << "a changed picture is reported, whatever made it change";
+        EXPECT_THAT(diff_table(allowed), HasSubstr("/spec/scene/shading/glsl (allowed): one | two\n"));
+    }
+    // Neither something below the field nor a pointer that only begins in the same way.
+    for (const char* pointer : {"/scene/shading/glsl/0", "/scene/shading/gl", "/scene/shad", "/spec/scene", "/"})
+        EXPECT_THAT(conflicts({pointer}), ElementsAre("/spec/scene/shading/glsl")) << pointer;
+}
+
+TEST_F(ReportDiff, AMethodsFieldIsAllowedByItsPlaceInTheFirstReport) {
+    a["spec"]["methods"][2]["threshold"] = 0.02;
+    b["spec"]["methods"][2]["threshold"] = 0.05;
+    std::swap(b["spec"]["methods"][1], b["spec"]["methods"][2]);
+    EXPECT_THAT(offered(), ElementsAre("/methods/2/threshold"));
+    EXPECT_THAT(conflicts({"/methods/1"}), ElementsAre("/spec/methods/2/threshold"));
+    EXPECT_THAT(conflicts({"/methods/2/threshold"}), ElementsAre());
+}
+
+TEST_F(ReportDiff, OnlyFieldsThatAreNotAllowedAreRefused) {
+    b["spec"]["scene"]["count"] = 4;
+    b["spec"]["methods"][2]["id"] = "f2bx";
+    a["spec"]["image"]["format"] = "rgba8";
+    b["spec"]["image"]["format"] = "rgba16f";
+    EXPECT_THAT(offered({"/scene"}), ElementsAre("/methods/2/id", "/image/format"));
+    EXPECT_THAT(conflicts({"/scene", "/methods/2", "/image/format"}), ElementsAre());
+}
+
+TEST_F(ReportDiff, ManyFieldsAreOfferedAsTheirPartsOfTheSpec) {
+    for (const char* name : {"a", "b", "c", "d", "e", "f", "g"}) {
+        a["spec"]["scene"][name] = 1;
+        b["spec"]["scene"][name] = 2;
+    }
+    b["spec"]["methods"][2]["id"] = "f2bx";
+    EXPECT_EQ(offered().size(), 8u);
+    b["spec"]["scene"]["count"] = 4;
+    EXPECT_THAT(offered(), ElementsAre("/methods", "/scene"));
+    EXPECT_THAT(conflicts(offered()), ElementsAre());
+}
+
+TEST_F(ReportDiff, SizesAreRefusedEvenIfAllowed) {
+    b["spec"]["image"]["height"] = 4;
+    b["spec"]["scene"]["count"] = 4;
+    for (const std::vector<std::string>& allow : {std::vector<std::string>{"/image/height"}, {"/image"}, {""}}) {
+        EXPECT_EQ(conflicts(allow).front(), "/spec/image/height");
+        EXPECT_THAT(offered(allow), ElementsAre()) << "allowing would not help";
+    }
+    EXPECT_THAT(conflicts({"/image", "/scene"}), ElementsAre("/spec/image/height"));
+    try {
+        diff({.allow = {""}});
+        ADD_FAILURE() << "it was not refused";
+    } catch (const SpecError& refused) {
+        EXPECT_THAT(refused.what(), HasSubstr("is 2 in one report and 4 in the other; pictures of different sizes"));
+    }
+}
+
+TEST_F(ReportDiff, InvalidPointersAreRefusedByTheirText) {
+    try {
+        diff({.allow = {"/scene", "scene/count", "/scene/~2"}});
+        ADD_FAILURE() << "it was not refused";
+    } catch (const SpecError& wrong) {
+        ASSERT_EQ(wrong.errors().size(), 2u);
+        EXPECT_EQ(wrong.errors()[0].pointer, "/allow");
+        EXPECT_THAT(wrong.errors()[0].detail, HasSubstr("\"scene/count\" is not a JSON pointer"));
+        EXPECT_THAT(wrong.errors()[1].detail, HasSubstr("\"/scene/~2\" is not a JSON pointer"));
+    }
 }
 
 TEST_F(ReportDiff, PointsAreMatched) {
@@ -282,11 +387,13 @@ TEST_F(ReportDiff, PointsAreMatched) {
     EXPECT_THAT(conflicts(), ElementsAre("/spec/sweep"));
 }
 
-TEST_F(ReportDiff, ASweepOfMethodsNeedsThemInOneOrder) {
+TEST_F(ReportDiff, ASweepOfMethodsNeedsThemInTheSameOrder) {
     a["runs"][0]["point"] = b["runs"][0]["point"] = {{"/methods/2/threshold", 0.5}};
     EXPECT_THAT(conflicts(), ElementsAre());
     std::swap(b["spec"]["methods"][1], b["spec"]["methods"][2]);
     EXPECT_THAT(conflicts(), ElementsAre("/spec/methods"));
+    EXPECT_THAT(conflicts({""}), ElementsAre("/spec/methods"));
+    EXPECT_THAT(offered(), ElementsAre());
 }
 
 TEST_F(ReportDiff, AReportMustBeDone) {
@@ -300,19 +407,19 @@ TEST_F(ReportDiff, PixelsBeyondTheLimitAreNotExamined) {
     for (std::size_t i = 1; i < 3; ++i) result(b, i)["images"]["color"] = image(changed);
     const json limited = diff({.max_pixels = 8});
     EXPECT_EQ(limited["summary"]["pictures"], json({{"identical", 2}, {"different", 1}, {"not examined", 1}}));
-    EXPECT_THAT(diff_table(limited), HasSubstr("too large together"));
+    EXPECT_THAT(diff_table(limited), HasSubstr("too large in total"));
 }
 
-TEST_F(ReportDiff, PicturesThatAreNotWhatTheReportSaysAreRefused) {
+TEST_F(ReportDiff, PicturesThatDoNotMatchTheReportAreRefused) {
     const json color = image(Image8(5, 2));
     result(b, 1)["images"]["color"] = color;
-    EXPECT_THROW(diff(), std::runtime_error) << "another size";
-    m_files[color["url"]] = "no PNG";
-    EXPECT_THROW(diff(), std::runtime_error) << "another hash";
-    const std::string text = "no PNG, but of the right hash";
+    EXPECT_THROW(diff(), std::runtime_error) << "a different size";
+    m_files[color["url"]] = "not a PNG file";
+    EXPECT_THROW(diff(), std::runtime_error) << "a different hash";
+    const std::string text = "not a PNG file, but with the right hash";
     m_files[sha256_hex(text)] = text;
     result(b, 1)["images"]["color"] = {{"sha256", sha256_hex(text)}, {"url", sha256_hex(text)}};
-    EXPECT_THROW(diff(), std::runtime_error) << "no PNG";
+    EXPECT_THROW(diff(), std::runtime_error) << "not a PNG file";
 }
 
 TEST_F(ReportDiff, LinearPicturesAreComparedByTheirBytes) {
@@ -322,6 +429,24 @@ TEST_F(ReportDiff, LinearPicturesAreComparedByTheirBytes) {
     EXPECT_EQ(of(1, "picture")["linear"], "different");
     EXPECT_EQ(of(1, "picture")["verdict"], "identical");
     EXPECT_FALSE(is_worse(diff()));
+}
+
+TEST_F(ReportDiff, MatchesItsDescription) {
+    Image8 changed(4, 2);
+    changed.pixel(0, 0)[0] = 9;
+    // Of two changed pictures only the first, the reference's, is examined.
+    b["runs"][0]["reference"]["images"]["color"] = image(changed);
+    result(b, 1)["images"]["color"] = image(changed);
+    result(b, 2)["status"] = "failed";
+    b["spec"]["scene"]["count"] = 4;
+    MapSink sink;
+    const json all = diff({.pictures = &sink, .max_pixels = 8, .allow = {"/scene"}});
+    SchemaWalk walk = SchemaWalk::of<diff::Diff>();
+    walk.check(all);
+    EXPECT_THAT(walk.missing(), ElementsAre("Picture.full_scale", "Picture.greatest"));
+    EXPECT_EQ(to_document(from_document<diff::Diff>(all)), all);
+    EXPECT_TRUE(all["runs"][0]["results"][0]["picture"]["worst_pixel"].is_null()) << "there is no differing pixel";
+    EXPECT_FALSE(all["runs"][0]["results"][1]["picture"].contains("worst_pixel")) << "unknown";
 }
 
 }  // namespace

@@ -17,19 +17,21 @@ json image(const std::string& sha256, const std::string& media_type = "image/png
     return {{"sha256", sha256}, {"url", "/api/v1/blobs/" + sha256}, {"media_type", media_type}};
 }
 
-/// A report with the parts that the page's file is made from.
+/// A report with the parts from which the page's file is made.
 json report_titled(const std::string& title) {
     const json reference = {{"method", "exact"},
                             {"images", {{"color", image("aa")}, {"linear", image("ee", "image/x-exr")}}}};
     const json same = {{"label", "b2f"}, {"images", {{"color", image("aa")}, {"flip", image("ff")}}}};
     const json failed = {{"label", "f2b"}, {"status", "failed"}, {"images", json::object()}};
-    return {{"spec", {{"title", title}}}, {"runs", {{{"reference", reference}, {"results", {same, failed}}}}}};
+    const json methods = json::array({{{"id", "b2f"}, {"label", "b2f"}}, {{"id", "f2b"}, {"label", "f2b"}}});
+    return {{"spec", {{"title", title}, {"methods", methods}, {"baseline", "b2f"}}},
+            {"runs", {{{"reference", reference}, {"results", {same, failed}}}}}};
 }
 
 std::string page_of(const json& report, std::vector<std::string>* read = nullptr) {
-    return report_html(report, [read](const json& picture) {
-        if (read != nullptr) read->push_back(picture.at("sha256"));
-        return "bytes of " + picture.at("sha256").get<std::string>();
+    return report_html(from_document<report::Report>(report), [read](const report::Picture& picture) {
+        if (read != nullptr) read->push_back(picture.sha256);
+        return "bytes of " + picture.sha256;
     });
 }
 
@@ -45,10 +47,11 @@ std::size_t count(const std::string& text, const std::string& part) {
     return found;
 }
 
-TEST(ReportHtml, HoldsTheReportAsItIs) {
+TEST(ReportHtml, ContainsTheReportUnchanged) {
     const json report = report_titled("</script><script>alert(1)</script> <!-- \u201cx\u201d & 'y'");
     const json data = data_block(page_of(report));
-    EXPECT_EQ(data.at("report"), report);
+    EXPECT_EQ(data.at("report"), to_document(from_document<report::Report>(report)));
+    EXPECT_EQ(data.at("report").at("spec"), report.at("spec"));
     EXPECT_FALSE(data.at("methods").empty());
     EXPECT_FALSE(data.at("metrics").empty());
 }
@@ -63,16 +66,17 @@ TEST(ReportHtml, TextFromUsersCannotBecomeMarkup) {
     EXPECT_THAT(page, HasSubstr("<title>&lt;/title&gt;&lt;/script&gt;&lt;script&gt;alert(1)"));
 }
 
-TEST(ReportHtml, EmbedsEachPngOnceAndNothingElse) {
+TEST(ReportHtml, EmbedsEachPictureOnce) {
     std::vector<std::string> read;
     const json pictures = data_block(page_of(report_titled("x"), &read)).at("pictures");
-    EXPECT_THAT(read, ::testing::UnorderedElementsAre("aa", "ff"));
-    // base64 of "bytes of aa" and "bytes of ff" by coreutils.
+    EXPECT_THAT(read, ::testing::UnorderedElementsAre("aa", "ee", "ff"));
+    // base64 of "bytes of aa", "bytes of ee" and "bytes of ff" by coreutils.
     EXPECT_EQ(pictures, (json{{"aa", "data:image/png;base64,Ynl0ZXMgb2YgYWE="},
+                              {"ee", "data:image/x-exr;base64,Ynl0ZXMgb2YgZWU="},
                               {"ff", "data:image/png;base64,Ynl0ZXMgb2YgZmY="}}));
 }
 
-TEST(ReportHtml, NeedsNothingFromElsewhere) {
+TEST(ReportHtml, IsSelfContained) {
     const std::string page = page_of(report_titled("x"));
     const std::regex fetched(R"re((src|href)="([^"]*)")re");
     for (std::sregex_iterator found(page.begin(), page.end(), fetched), end; found != end; ++found)
@@ -82,7 +86,7 @@ TEST(ReportHtml, NeedsNothingFromElsewhere) {
     EXPECT_THAT(page, HasSubstr("default-src 'none'"));
 }
 
-TEST(ReportHtml, EveryScriptThatRunsKnowsTheNonceOfThisReport) {
+TEST(ReportHtml, EveryScriptHasTheNonceOfThisReport) {
     const auto nonce_of = [](const std::string& page) {
         std::smatch found;
         EXPECT_TRUE(std::regex_search(page, found, std::regex("'nonce-([0-9a-f]{32})'")));
@@ -90,7 +94,7 @@ TEST(ReportHtml, EveryScriptThatRunsKnowsTheNonceOfThisReport) {
     };
     const std::string page = page_of(report_titled("x"));
     const std::string nonce = nonce_of(page);
-    // The style, the theme, the import map and the entry; the block of data is not run.
+    // The style, the theme, the import map and the entry; the block of data is not executed.
     EXPECT_EQ(count(page, "nonce=\"" + nonce + "\""), 4u);
     EXPECT_EQ(count(page, "<script nonce=") + count(page, "<script type=\"importmap\" nonce=") +
                   count(page, "<script type=\"module\" nonce="),
@@ -99,9 +103,10 @@ TEST(ReportHtml, EveryScriptThatRunsKnowsTheNonceOfThisReport) {
     EXPECT_NE(nonce, nonce_of(page_of(report_titled("y"))));
 }
 
-TEST(ReportHtml, FailsWhereAPictureCannotBeRead) {
-    EXPECT_THROW(report_html(report_titled("x"), [](const json&) -> std::string { throw std::runtime_error("gone"); }),
-                 std::runtime_error);
+TEST(ReportHtml, FailsIfAPictureCannotBeRead) {
+    const auto report = from_document<report::Report>(report_titled("x"));
+    const auto read = [](const report::Picture&) -> std::string { throw std::runtime_error("gone"); };
+    EXPECT_THROW(report_html(report, read), std::runtime_error);
 }
 
 }  // namespace

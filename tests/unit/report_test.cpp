@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "renderer/command/command.h"
+#include "renderer/core/sha256.h"
 #include "renderer/files/blob_sink.h"
 #include "renderer/files/picture_file.h"
 #include "tests/unit/map_sink.h"
@@ -20,6 +21,18 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+
+std::string table_of(const json& made) {
+    return report_table(from_document<report::Report>(made));
+}
+
+std::string junit_of(const json& made) {
+    return report_junit(from_document<report::Report>(made));
+}
+
+int exit_code_of(const json& made) {
+    return cli::exit_code_of(from_document<report::Report>(made));
+}
 
 TEST(Sha256, OfKnownTexts) {
     EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
@@ -59,7 +72,7 @@ struct ReportFixture : testing::Test {
         run.reference_image = Image(4, 2);
         run.no_residual_reason = "too many";
         run.results.resize(3);
-        // 80 fragments, 10 to a pixel; f2bd needs and shades 2 to a pixel.
+        // 80 fragments, 10 per pixel; f2bd needs and shades 2 per pixel.
         run.overdraw = {4, 2, std::vector<std::uint32_t>(8, 10)};
         run.rounds_done = 6;
         for (int round = 1; round <= 6; ++round) run.baseline_again.push_back(sample(10.5 * round, 9.45 * round));
@@ -77,7 +90,7 @@ struct ReportFixture : testing::Test {
         run.results[0].fragments = {{run.overdraw, "", "specified", run.overdraw, ""}, run.overdraw, "", {}};
         const PixelCounts one{4, 2, std::vector<std::uint32_t>(8, 1)}, two{4, 2, std::vector<std::uint32_t>(8, 2)};
         run.results[1].fragments = {{two, "", "probed", one, ""}, two, "", two};
-        run.results[2].status = "unsupported";
+        run.results[2].status = report::ResultStatus::unsupported;
         run.results[2].reason = "no <barrier>";
         runs.push_back(std::move(run));
     }
@@ -85,7 +98,7 @@ struct ReportFixture : testing::Test {
     json report() {
         ReportMaker maker(spec, device, &sink, "2026-01-01T00:00:00.000Z");
         for (const sheer::Run& run : runs) maker.add(run);
-        return maker.finish();
+        return to_document(maker.finish());
     }
 };
 
@@ -93,7 +106,7 @@ TEST_F(ReportFixture, TimesAndSpeedupsAreThoseOfTheSamples) {
     const json made = report();
     const json& b2f = made["runs"][0]["results"][0];
     const json& f2bd = made["runs"][0]["results"][1];
-    // A software rasteriser is timed by the wall clock.
+    // The wall clock is used for a software rasteriser.
     EXPECT_EQ(b2f["timing"]["clock"], "wall");
     EXPECT_EQ(b2f["timing"]["samples"], json({10.0, 20.0, 30.0, 40.0, 50.0, 60.0}));
     EXPECT_EQ(b2f["timing"]["median"], 35);
@@ -111,29 +124,29 @@ TEST_F(ReportFixture, TimesAndSpeedupsAreThoseOfTheSamples) {
         json({{"value", 2.0}, {"ci95", {2.0, 2.0}}, {"verdict", "faster"}, {"reason", nullptr}, {"compared", 1}}));
 }
 
-TEST_F(ReportFixture, TheBaselineIsHeldAgainstItself) {
+TEST_F(ReportFixture, TheBaselineIsComparedWithItself) {
     const json run = report()["runs"][0];
     EXPECT_EQ(run["rounds"], json({{"asked", 10}, {"done", 6}, {"needed", 6}}));
     EXPECT_EQ(run["noise_floor"]["method"], "b2f");
-    // Ratios, as all the rest of it: 10 / 10.5 in each round.
+    // Ratios, like everything else in it: 10 / 10.5 in each round.
     ASSERT_EQ(run["noise_floor"]["samples"].size(), 6u);
     for (const json& ratio : run["noise_floor"]["samples"]) EXPECT_NEAR(ratio.get<double>(), 1 / 1.05, 1e-12);
     EXPECT_NEAR(run["noise_floor"]["value"].get<double>(), 1 / 1.05, 1e-9);
     EXPECT_NEAR(run["noise_floor"]["factor"].get<double>(), 1.05, 1e-9);
 
-    // Were the second instance 2.5 times as slow, twice as fast would be no news.
+    // If the second instance is 2.5 times as slow, a method twice as fast is within the noise.
     for (gl::FrameSample& frame : runs[0].baseline_again) frame.wall_ms *= 2.5;
     const json speedup = report()["runs"][0]["results"][1]["speedup"];
     EXPECT_EQ(speedup["verdict"], "not resolved");
     EXPECT_EQ(speedup["reason"], "inside the noise floor");
 
-    runs[0].results[0].status = "unsupported";
+    runs[0].results[0].status = report::ResultStatus::unsupported;
     runs[0].baseline_again.clear();
     EXPECT_TRUE(report()["runs"][0]["noise_floor"].is_null());
     EXPECT_TRUE(report()["runs"][0]["results"][1]["speedup"].is_null());
 }
 
-TEST_F(ReportFixture, SortingIsToldAndSpeedupsAreGivenWithIt) {
+TEST_F(ReportFixture, SortingIsReportedAndSpeedupsAreGivenWithIt) {
     // b2f takes 10, 20, ... ms and 30 ms of sorting; f2bd half of that and no sorting.
     runs[0].results[0].sorts = true;
     runs[0].results[0].sort_ms = {30, 30, 30, 30, 30, 30};
@@ -147,13 +160,13 @@ TEST_F(ReportFixture, SortingIsToldAndSpeedupsAreGivenWithIt) {
     EXPECT_EQ(sort["clock"], "wall");
     EXPECT_TRUE(results[1]["timing"]["sort"].is_null());
     EXPECT_EQ(results[1]["timing"]["sort_reason"], "the method needs no sorting");
-    EXPECT_EQ(results[1]["speedup"]["value"], 2.0) << "of the frames alone";
+    EXPECT_EQ(results[1]["speedup"]["value"], 2.0) << "of the frames only";
     // (10 + 30) / 5 = 8, 50 / 10 = 5, 60 / 15 = 4, 70 / 20 = 3.5, 80 / 25 = 3.2, 90 / 30 = 3.
     EXPECT_DOUBLE_EQ(results[1]["speedup_with_sort"]["value"].get<double>(), 3.75);
     EXPECT_EQ(results[1]["speedup_with_sort"]["ci95"], json({3.0, 8.0}));
     EXPECT_EQ(results[1]["speedup_with_sort"]["verdict"], "faster");
     EXPECT_EQ(results[0]["speedup_with_sort"]["value"], 1.0);
-    EXPECT_THAT(report_table(report()), HasSubstr("3.75x [3.00, 8.00]"));
+    EXPECT_THAT(table_of(report()), HasSubstr("3.75x [3.00, 8.00]"));
 
     spec.checks = {{"speedup_with_sort", "F2BD <1>", 3.0, nullptr, json::object()},
                    {"timing.sort.median", "b2f", nullptr, 29, json::object()},
@@ -183,33 +196,33 @@ TEST_F(ReportFixture, AComparisonOfNothingPassesNoCheck) {
     EXPECT_EQ(made["checks"][0]["reason"], why);
     EXPECT_EQ(made["verdict"], "failed");
     EXPECT_EQ(made["verdict_reason"], "1 of 1 checks failed; " + why);
-    EXPECT_EQ(cli::exit_code_of(made), cli::exit_check_failed);
-    EXPECT_THAT(report_junit(made), AllOf(HasSubstr("<failure"), HasSubstr(why), HasSubstr("<skipped")));
-    EXPECT_THAT(report_table(made), HasSubstr(why));
+    EXPECT_EQ(exit_code_of(made), exit_check_failed);
+    EXPECT_THAT(junit_of(made), AllOf(HasSubstr("<failure"), HasSubstr(why), HasSubstr("<skipped")));
+    EXPECT_THAT(table_of(made), HasSubstr(why));
     spec.checks.clear();
     EXPECT_EQ(report()["verdict"], "none");
     EXPECT_EQ(report()["verdict_reason"], why);
 }
 
-TEST_F(ReportFixture, AFailedMethodIsNoSilentPass) {
+TEST_F(ReportFixture, AFailedMethodDoesNotPassSilently) {
     spec.checks = {{"rmse", "b2f", nullptr, 1, json::object()}};
-    EXPECT_EQ(report()["verdict"], "passed") << "unsupported is no failure";
+    EXPECT_EQ(report()["verdict"], "passed") << "unsupported is not a failure";
     EXPECT_TRUE(report()["verdict_reason"].is_null());
-    EXPECT_EQ(cli::exit_code_of(report()), cli::exit_ok);
-    runs[0].results[2].status = "failed";
+    EXPECT_EQ(exit_code_of(report()), exit_ok);
+    runs[0].results[2].status = report::ResultStatus::failed;
     runs[0].results[2].reason = "timing f2bx: GL_OUT_OF_MEMORY";
     EXPECT_EQ(report()["verdict"], "failed");
     EXPECT_EQ(report()["verdict_reason"], "f2bx failed: timing f2bx: GL_OUT_OF_MEMORY");
-    EXPECT_EQ(cli::exit_code_of(report()), cli::exit_render_failed) << "no check failed";
+    EXPECT_EQ(exit_code_of(report()), exit_render_failed) << "no check failed";
     spec.checks.clear();
-    EXPECT_EQ(report()["verdict"], "failed") << "also where nothing is checked";
+    EXPECT_EQ(report()["verdict"], "failed") << "even if there are no checks";
     spec.checks = {{"rmse", "f2bx", nullptr, 1, json::object()}};
     EXPECT_EQ(report()["checks"][0]["reason"], "failed: timing f2bx: GL_OUT_OF_MEMORY");
-    EXPECT_EQ(cli::exit_code_of(report()), cli::exit_check_failed) << "a check did";
+    EXPECT_EQ(exit_code_of(report()), exit_check_failed) << "a check did";
 }
 
-TEST_F(ReportFixture, AFailedBaselineIsTheReasonThatThereIsNoSpeedup) {
-    runs[0].results[0].status = "failed";
+TEST_F(ReportFixture, AFailedBaselineIsTheReasonForMissingSpeedups) {
+    runs[0].results[0].status = report::ResultStatus::failed;
     runs[0].results[0].reason = "rendering b2f: GL_INVALID_ENUM";
     const json made = report();
     const std::string reason = "the baseline b2f is failed: rendering b2f: GL_INVALID_ENUM";
@@ -220,8 +233,8 @@ TEST_F(ReportFixture, AFailedBaselineIsTheReasonThatThereIsNoSpeedup) {
     EXPECT_FALSE(report()["runs"][0]["results"][1]["timing"].is_null());
 }
 
-TEST_F(ReportFixture, AFailedReferenceIsToldAndHasNoPicture) {
-    runs[0].reference_status = "failed";
+TEST_F(ReportFixture, AFailedReferenceIsReportedAndHasNoPicture) {
+    runs[0].reference_status = report::ResultStatus::failed;
     runs[0].reference_reason = "rendering the reference exact: GL_OUT_OF_MEMORY";
     runs[0].reference_image = {};
     for (MethodResult& result : runs[0].results) {
@@ -238,15 +251,16 @@ TEST_F(ReportFixture, AFailedReferenceIsToldAndHasNoPicture) {
 }
 
 TEST_F(ReportFixture, IntervalsAreCorrectedForTheNumberOfMethods) {
-    // Two methods that ran beside the baseline allow 2.5 % each; of six rounds 3.1 % lie outside the whole range.
-    runs[0].results[2].status = "ok";
+    // With two methods beside the baseline, 2.5 % are allowed for each; for six rounds the whole range is missed in 3.1
+    // %.
+    runs[0].results[2].status = report::ResultStatus::ok;
     const json speedup = report()["runs"][0]["results"][1]["speedup"];
     EXPECT_EQ(speedup["compared"], 2);
     EXPECT_TRUE(speedup["ci95"].is_null());
     EXPECT_EQ(speedup["verdict"], "not resolved");
 }
 
-TEST_F(ReportFixture, NotesAreTheReportsOnceAndReachTableAndJunit) {
+TEST_F(ReportFixture, NotesAreListedOnceAndReachTableAndJunit) {
     const Note skipped{"extension-ignored", "KHR_x & y is left out.", "/scene/model: materials[2]"};
     runs[0].notes = {skipped};
     runs[0].results[1].notes = {{"too-bright", "Sums overflowed.", ""}};
@@ -257,18 +271,18 @@ TEST_F(ReportFixture, NotesAreTheReportsOnceAndReachTableAndJunit) {
                               {"code": "too-bright", "text": "Sums overflowed.", "where": null}])"));
     EXPECT_EQ(made["runs"][1]["notes"], json::array({made["notes"][0]}));
     EXPECT_EQ(made["runs"][1]["results"][1]["notes"], json::array({made["notes"][1]}));
-    EXPECT_THAT(report_table(made), HasSubstr("Note: /scene/model: materials[2]: KHR_x & y is left out.\n"
-                                              "Note: Sums overflowed.\n"));
-    EXPECT_THAT(report_junit(made), HasSubstr("<property name=\"note.extension-ignored\" "
-                                              "value=\"/scene/model: materials[2]: KHR_x &amp; y is left out.\"/>"));
+    EXPECT_THAT(table_of(made), HasSubstr("Note: /scene/model: materials[2]: KHR_x & y is left out.\n"
+                                          "Note: Sums overflowed.\n"));
+    EXPECT_THAT(junit_of(made), HasSubstr("<property name=\"note.extension-ignored\" "
+                                          "value=\"/scene/model: materials[2]: KHR_x &amp; y is left out.\" />"));
 }
 
-TEST_F(ReportFixture, FilesAreTheReportsOnce) {
+TEST_F(ReportFixture, FilesAreListedOnce) {
     const SourceFile model{"/scene/model", {"a.gltf", "", "aa", 12}},
         part{"/scene/model", {"a.bin", "a.gltf", "bb", 3}};
     runs[0].files = {model, part};
     runs.push_back(runs[0]);
-    // The part was written again between the two points.
+    // The part was rewritten between the two points.
     runs[1].files[1].file.sha256 = "cc";
     const json made = report();
     EXPECT_EQ(made["files"], json::parse(R"([
@@ -292,16 +306,16 @@ TEST_F(ReportFixture, AChecksTimeIsDecidedByItsIntervalOnly) {
     EXPECT_EQ(undecided["passed"], false);
     EXPECT_EQ(undecided["reason"], "the limit lies within its interval [1, 3]");
     EXPECT_EQ(made["verdict"], "undecided");
-    EXPECT_THAT(report_table(made), HasSubstr("undecided  speedup of F2BD <1> is 2, at least 1.5"));
-    EXPECT_THAT(report_junit(made), HasSubstr("failures=\"0\""));
-    EXPECT_THAT(report_junit(made), HasSubstr("<skipped message=\"undecided: is 2"));
+    EXPECT_THAT(table_of(made), HasSubstr("undecided  speedup of F2BD <1> is 2, at least 1.5"));
+    EXPECT_THAT(junit_of(made), HasSubstr("failures=\"0\""));
+    EXPECT_THAT(junit_of(made), HasSubstr("<skipped message=\"undecided: is 2"));
 
     EXPECT_EQ(check(0.9, 3)["checks"][0]["outcome"], "passed");
     EXPECT_EQ(check(0.9, 2.9)["checks"][0]["outcome"], "undecided");
     EXPECT_EQ(check(3.1, 10)["checks"][0]["outcome"], "failed");
     EXPECT_EQ(check(0.1, 0.9)["verdict"], "failed");
 
-    // Of three rounds there is no interval.
+    // Three rounds give no interval.
     for (MethodResult& result : runs[0].results) result.samples.resize(3);
     runs[0].baseline_again.resize(3);
     EXPECT_EQ(check(0.9, 3)["checks"][0]["reason"], "there are too few rounds for an interval");
@@ -314,7 +328,7 @@ TEST_F(ReportFixture, OutliersAreMarkedAndKept) {
     EXPECT_EQ(timing["samples"], json({5.0, 10.0, 900.0, 20.0, 25.0, 30.0}));
 }
 
-TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsTheIdealTimeOverTheOwn) {
+TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsIdealOverActualTime) {
     json fragments = report()["runs"][0]["results"][1]["fragments"];
     EXPECT_EQ(fragments["submitted"], 80);
     EXPECT_EQ(fragments["shaded"], 16);
@@ -324,7 +338,7 @@ TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsTheIdealTimeOverTheOwn) {
     EXPECT_TRUE(fragments["efficiency"].is_null());
     EXPECT_THAT(fragments["efficiency_reason"].get<std::string>(), HasSubstr("f2b"));
 
-    // With b2f's times as f2b's: 35 ms * 16 / 80 = 7 ms are ideal, 17.5 ms were taken.
+    // With b2f's times for f2b: 35 ms * 16 / 80 = 7 ms are ideal, 17.5 ms were measured.
     runs[0].results[0].method.id = "f2b";
     fragments = report()["runs"][0]["results"][1]["fragments"];
     EXPECT_DOUBLE_EQ(fragments["efficiency"].get<double>(), 0.4);
@@ -341,7 +355,7 @@ TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsTheIdealTimeOverTheOwn) {
     EXPECT_EQ(fragments["efficiency_reason"], "why not needed");
 }
 
-TEST_F(ReportFixture, CountPicturesShareAScaleAndSayTheirGreatestValue) {
+TEST_F(ReportFixture, CountPicturesShareAScaleAndGiveTheirGreatestValue) {
     const json images = report()["runs"][0]["results"][1]["images"];
     EXPECT_EQ(images["overdraw"]["greatest"], 10);
     EXPECT_EQ(images["shaded"]["greatest"], 2);
@@ -358,7 +372,7 @@ TEST_F(ReportFixture, FragmentsCanBeChecked) {
                    {"memory_bytes", "F2BD <1>", nullptr, 0}};
     const json checks = report()["checks"];
     EXPECT_EQ(checks[0]["passed"], true);
-    EXPECT_EQ(checks[1]["passed"], false) << "without f2b it is not known";
+    EXPECT_EQ(checks[1]["passed"], false) << "unknown without f2b";
     EXPECT_EQ(checks[2]["passed"], true);
     const Spec parsed = parse_spec({{"scene", {{"type", "quads"}}},
                                     {"methods", {"f2b"}},
@@ -366,7 +380,7 @@ TEST_F(ReportFixture, FragmentsCanBeChecked) {
     EXPECT_EQ(parsed.checks[0].metric, "fragments.efficiency");
 }
 
-TEST_F(ReportFixture, AGpuIsTimedByItsOwnClockWhileTheClocksAgree) {
+TEST_F(ReportFixture, AGpuIsTimedByItsOwnClockIfTheClocksAgree) {
     device.info.software = false;
     EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["clock"], "gpu");
     EXPECT_EQ(report()["runs"][0]["results"][0]["timing"]["median"], 9 * 3.5);
@@ -383,14 +397,14 @@ TEST_F(ReportFixture, MetricsAreSignedReferenceMinusMethod) {
     EXPECT_TRUE(report()["runs"][0]["results"][0]["metrics"]["psnr"].is_null());
 }
 
-TEST_F(ReportFixture, ChecksHoldTheirLimits) {
+TEST_F(ReportFixture, ChecksCompareWithTheirLimits) {
     const json made = report();
     ASSERT_EQ(made["checks"].size(), 4u);
     EXPECT_EQ(made["checks"][0]["passed"], true);
     EXPECT_EQ(made["checks"][0]["value"], 2.0);
     EXPECT_EQ(made["checks"][1]["passed"], true);
     EXPECT_EQ(made["checks"][2]["passed"], true) << "identical pictures pass any least PSNR";
-    EXPECT_EQ(made["checks"][3]["passed"], false) << "what was not measured passes nothing";
+    EXPECT_EQ(made["checks"][3]["passed"], false) << "a value that was not measured passes no check";
     EXPECT_TRUE(made["checks"][3]["value"].is_null());
     EXPECT_EQ(made["checks"][3]["reason"], "unsupported: no <barrier>");
     EXPECT_TRUE(made["checks"][0]["reason"].is_null());
@@ -398,7 +412,7 @@ TEST_F(ReportFixture, ChecksHoldTheirLimits) {
     EXPECT_EQ(made["verdict"], "failed");
 }
 
-TEST_F(ReportFixture, SaysWhereItComesFromAndWhatItsNumbersMean) {
+TEST_F(ReportFixture, HasItsProvenanceAndTheMeaningOfItsNumbers) {
     device.info.name = "egl:1";
     device.info.gl_version = "4.6.0 NVIDIA 535.183.01";
     device.workarounds = {"flush-timer-queries"};
@@ -414,7 +428,7 @@ TEST_F(ReportFixture, SaysWhereItComesFromAndWhatItsNumbersMean) {
     EXPECT_FALSE(provenance["commit"].get<std::string>().empty());
     for (const char* when : {"start", "end"}) EXPECT_EQ(provenance["load"][when].size(), 3u) << when;
     EXPECT_EQ(provenance["governor"].is_null(), provenance.contains("governor_reason"));
-    EXPECT_THAT(made["color_space"]["blending"].get<std::string>(), HasSubstr("none is converted to linear light"));
+    EXPECT_THAT(made["color_space"]["blending"].get<std::string>(), HasSubstr("without conversion to linear light"));
     EXPECT_EQ(made["runs"][0]["reference"]["findings"]["lists"]["kept"], 80);
 
     device.info.gl_version = "4.6";
@@ -423,7 +437,7 @@ TEST_F(ReportFixture, SaysWhereItComesFromAndWhatItsNumbersMean) {
     EXPECT_TRUE(unnamed.contains("driver_reason"));
 }
 
-TEST_F(ReportFixture, WhatWasNotMeasuredIsNullWithAReason) {
+TEST_F(ReportFixture, MissingMeasurementsAreNullWithAReason) {
     const json run = report()["runs"][0];
     EXPECT_TRUE(run["reference"]["residual"]["depth_peeling"].is_null());
     EXPECT_EQ(run["reference"]["residual_reason"], "too many");
@@ -445,7 +459,7 @@ TEST_F(ReportFixture, PicturesHaveNamesAndHashesOfTheirBytes) {
     EXPECT_TRUE(sink.bytes_by_name.contains("reference-exact.linear.exr"));
 }
 
-TEST_F(ReportFixture, CountsBeyondTheColoursAreThereAsNumbers) {
+TEST_F(ReportFixture, CountsBeyondTheColorsAreStoredAsNumbers) {
     EXPECT_FALSE(report()["runs"][0]["results"][1]["images"].contains("shaded_counts"));
     runs[0].results[1].fragments.shaded->counts[0] = 300;
     const json images = report()["runs"][0]["results"][1]["images"];
@@ -454,12 +468,12 @@ TEST_F(ReportFixture, CountsBeyondTheColoursAreThereAsNumbers) {
     EXPECT_EQ(read_pixel(sink.bytes_by_name.at("2-F2BD--1-.shaded.exr"), 0, 0), (std::array<double, 3>{300, 0, 0}));
 }
 
-TEST_F(ReportFixture, LinearPicturesDoNotHoldTheTimeOfDay) {
+TEST_F(ReportFixture, LinearPicturesDoNotContainTheTime) {
     EXPECT_THAT(encode_exr(Image(2, 1)), HasSubstr("1970:01:01 00:00:00"));
 }
 
-/// 0.25 is 63.75 levels: rounded to 64, a quarter of a level off.
-TEST_F(ReportFixture, TellsWhatTheFormatAloneCosts) {
+/// 0.25 is 63.75 levels: rounded to 64, which is a quarter of a level off.
+TEST_F(ReportFixture, GivesTheErrorOfTheFormatAlone) {
     for (std::size_t i = 0; i < runs[0].reference_image.rgba.size(); ++i) runs[0].reference_image.rgba[i] = 0.25f;
     runs[0].reference_as_shown = runs[0].reference_image;
     for (float& value : runs[0].reference_as_shown.rgba) value = 64 / 255.0f;
@@ -470,11 +484,11 @@ TEST_F(ReportFixture, TellsWhatTheFormatAloneCosts) {
     EXPECT_EQ(rounded["format"], "rgba8");
     EXPECT_NEAR(rounded["metrics"]["linear"]["max_abs"].get<double>(), 0.25 / 255, 1e-7);
     EXPECT_EQ(rounded["metrics"]["differing_pixels"], 0);
-    EXPECT_THAT(report_table(made), HasSubstr("exact in rgba8"));
+    EXPECT_THAT(table_of(made), HasSubstr("exact in rgba8"));
 }
 
 TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
-    const std::string table = report_table(report());
+    const std::string table = table_of(report());
     EXPECT_THAT(table, HasSubstr("b2f           35.00"));
     EXPECT_THAT(table, HasSubstr("2.00x [2.00, 2.00]        faster"));
     EXPECT_THAT(table, HasSubstr("F2BD <1>         80      16        8      16           -"));
@@ -487,12 +501,12 @@ TEST_F(ReportFixture, TableHasALineForEachMethodAndCheck) {
 }
 
 TEST_F(ReportFixture, JUnitCountsFailuresAndEscapes) {
-    const std::string xml = report_junit(report());
+    const std::string xml = junit_of(report());
     EXPECT_THAT(
         xml,
         HasSubstr("<testsuite name=\"A &amp; &quot;B&quot;\" tests=\"7\" failures=\"1\" errors=\"0\" skipped=\"1\""));
-    EXPECT_THAT(xml, HasSubstr("name=\"speedup of F2BD &lt;1&gt; at least 1.9 at most 2.1\"></testcase>"));
-    EXPECT_THAT(xml, HasSubstr("<skipped message=\"no &lt;barrier&gt;\"/>"));
+    EXPECT_THAT(xml, HasSubstr("name=\"speedup of F2BD &lt;1> at least 1.9 at most 2.1\" />"));
+    EXPECT_THAT(xml, HasSubstr("<skipped message=\"no &lt;barrier>\" />"));
     EXPECT_THAT(xml, Not(HasSubstr("<1>")));
 }
 
@@ -528,8 +542,8 @@ TEST(PictureFile, MissingFileIsNamed) {
 
 TEST(ContentSinkTest, NamesFilesByContent) {
     const TemporaryFolder folder;
-    ContentSink sink(folder.path);
-    EXPECT_EQ(sink.put("abc", "bytes", "x.png", "image/png"), "/api/v1/blobs/abc");
+    ContentSink sink(folder.path, "/pictures");
+    EXPECT_EQ(sink.put("abc", "bytes", "x.png", "image/png"), "/pictures/abc");
     std::ifstream file(folder.path / "abc");
     std::string text;
     file >> text;

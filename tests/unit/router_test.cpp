@@ -44,7 +44,7 @@ TEST_F(RouterTest, FindsTheRoute) {
     EXPECT_EQ(pattern("HEAD", "/things/5"), "GET /things/{id}");
 }
 
-TEST_F(RouterTest, DecodesWhatStandsForAName) {
+TEST_F(RouterTest, DecodesTheValueOfAName) {
     EXPECT_EQ(m_router.match("GET", "/things/a%2Fb%20c").path_values.at("id"), "a/b c");
 }
 

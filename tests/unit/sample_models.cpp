@@ -22,7 +22,7 @@ constexpr int repeat = 10497, clamp_to_edge = 33071, mirror = 33648, nearest = 9
 
 const Color red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1, 1, 1}, black{0, 0, 0}, behind = sample_background;
 
-/// Of `color` at this opacity over the background.
+/// `color` with this opacity over the background.
 Color over_background(const Color& color, double alpha) {
     Color mixed;
     for (std::size_t i = 0; i < 3; ++i) mixed[i] = alpha * color[i] + (1 - alpha) * behind[i];
@@ -46,12 +46,12 @@ std::vector<ExpectedPixel> quarters(const Color& a, const Color& b, const Color&
 const Floats quad_positions = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, quad_uvs = {0, 1, 1, 1, 1, 0, 0, 0};
 const std::vector<std::uint16_t> quad_indices = {0, 1, 2, 0, 2, 3};
 
-/// The attributes of a square that fills the picture.
+/// The attributes of a square that covers the picture.
 json quad_attributes(GlbWriter& writer) {
     return {{"POSITION", writer.accessor(quad_positions, "VEC3")}, {"TEXCOORD_0", writer.accessor(quad_uvs, "VEC2")}};
 }
 
-/// A square with a material in a node, which the rest of a sample changes.
+/// A square with a material, in a node, which samples modify.
 void add_quad(GlbWriter& writer, int material, json node = json::object()) {
     const json attributes = quad_attributes(writer);  // accessors 0 and 1
     const int indices = writer.accessor(quad_indices, "SCALAR");
@@ -76,7 +76,7 @@ int textured(GlbWriter& writer, const std::string& alpha_mode, const std::string
 
 const json texel_sampler = {{"magFilter", nearest}, {"minFilter", nearest}};
 
-/// A square with a texture, whose coordinates go from `from` to `to` across it.
+/// A square with a texture whose coordinates go from `from` to `to` across it.
 void add_textured_quad(GlbWriter& writer, const json& sampler, float from = 0, float to = 1,
                        const std::string& png = four_colors(), const std::string& alpha_mode = "OPAQUE") {
     add_quad(writer, textured(writer, alpha_mode, png, sampler));
@@ -91,7 +91,7 @@ void set_colors(GlbWriter& writer, const Floats& rgba) {
     attributes(writer)["COLOR_0"] = writer.accessor(rgba, "VEC4");
 }
 
-/// A masked square whose alpha is a factor, or that of all its vertices.
+/// A masked square whose alpha is a factor, or comes from all its vertices.
 SampleModel mask(const std::string& name, double factor, float vertices, double cutoff, const Color& seen) {
     return {name,
             [=](GlbWriter& writer) {
@@ -122,7 +122,7 @@ void add_draco_quad(GlbWriter& writer) {
     draco::EncoderBuffer buffer;
     encoder.EncodeMeshToBuffer(*mesh, &buffer);
     const int view = writer.view({buffer.data(), buffer.size()});
-    // Accessors without data of their own, as the extension wants them.
+    // Accessors without their own data, as the extension requires.
     const json attributes = {
         {"POSITION", writer.add("accessors", {{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}})},
         {"TEXCOORD_0", writer.add("accessors", {{"componentType", 5126}, {"count", 4}, {"type", "VEC2"}})}};
@@ -145,7 +145,7 @@ void compress(GlbWriter& writer, int accessor, const json& how, const std::vecto
         extension[name] = views[static_cast<std::size_t>(from)][name];
     json& compressed = views[static_cast<std::size_t>(view)];
     compressed["extensions"]["EXT_meshopt_compression"] = extension;
-    // The buffer that stands in for those who do not read the extension holds nothing.
+    // The fallback buffer for readers without the extension is empty.
     writer.other_buffers = {
         {{"byteLength", 1000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
     compressed["buffer"] = 1;
@@ -201,7 +201,7 @@ void add_instances(GlbWriter& writer, const json& instance_attributes) {
     writer.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = instance_attributes;
 }
 
-/// A sparse accessor that moves the quad's first two vertices, which lie in the middle without it.
+/// A sparse accessor that moves the quad's first two vertices, which are in the middle without it.
 json sparse_positions(GlbWriter& writer, const std::vector<std::uint8_t>& numbers, const Floats& values) {
     const int indices = writer.accessor(numbers, "SCALAR"), positions = writer.accessor(values, "VEC3");
     const auto view = [&](int accessor) {
@@ -216,7 +216,7 @@ json camera(const std::array<double, 3>& eye, const std::array<double, 3>& targe
     return {{"camera", {{"eye", eye}, {"target", target}, {"fov_y_deg", fov_y_deg}}}};
 }
 
-/// -1..1 of the plane ten ahead of the eye.
+/// -1..1 in the plane ten ahead of the eye.
 const double sample_fov_deg = 2 * std::atan(0.1) * 180 / pi;
 
 std::vector<SampleModel> geometry_samples() {
@@ -266,7 +266,7 @@ std::vector<SampleModel> geometry_samples() {
          quarters(red, behind, behind, red)},
         {"NestedRotation",
          [](GlbWriter& writer) {
-             // A quarter turn to the left about z, of what lies to the right.
+             // A quarter turn to the left about z of what is on the right.
              const int mesh = writer.mesh(quad_attributes(writer), writer.accessor(quad_indices, "SCALAR"),
                                           writer.material("OPAQUE", {0, 0, 1, 1}));
              const int child =
@@ -325,7 +325,7 @@ std::vector<SampleModel> geometry_samples() {
              accessor["type"] = "VEC3";
              writer.document["bufferViews"].back()["byteStride"] = 8;
              writer.document["nodes"][0]["scale"] = {0.01, 0.01, 0.01};
-             // 1023 of 65535 stand for 1.
+             // 1023 of 65535, scaled by the texture transform, give 1.
              attributes(writer)["TEXCOORD_0"] =
                  writer.accessor(std::vector<std::uint16_t>{0, 1023, 1023, 1023, 1023, 0, 0, 0}, "VEC2", true);
              base_texture(writer)["extensions"]["KHR_texture_transform"]["scale"] = {65535.0 / 1023, 65535.0 / 1023};
@@ -341,7 +341,7 @@ std::vector<SampleModel> geometry_samples() {
          quarters(red, behind, behind, red)},
         {"GpuInstancingTurnsAndScales",
          [](GlbWriter& writer) {
-             // The second one is turned away from the eye.
+             // The second one faces away from the eye.
              add_instances(writer,
                            {{"TRANSLATION", writer.accessor(Floats{-2, 2, 0, 2, -2, 0}, "VEC3")},
                             {"ROTATION",
@@ -406,7 +406,7 @@ std::vector<SampleModel> surface_samples() {
          everywhere(red)},
         {"OpaqueIgnoresTheTexturesAlpha",
          [](GlbWriter& writer) {
-             // Far apart: every pixel is a mean of many texels of red with alpha 0 and green with alpha 1.
+             // Minified: every pixel is the mean of many texels, red with alpha 0 and green with alpha 1.
              add_textured_quad(writer, {{"minFilter", 9987}}, 0, 64, make_png(2, 1, {255, 0, 0, 0, 0, 255, 0, 255}));
          },
          everywhere({0.5, 0.5, 0})},
@@ -470,7 +470,8 @@ std::vector<SampleModel> surface_samples() {
          everywhere(red), camera({0, 0, -10}, {0, 0, 0}, sample_fov_deg)},
         {"DoubleSidedIsLitFromItsBack",
          [](GlbWriter& writer) {
-             // What lies on its face shows a back that looks up: lit by all of the sky and the sun's cosine.
+             // A surface that lies face down shows its back, which faces up: lit by all of the sky and the sun's
+             // cosine.
              add_quad(writer, writer.material("OPAQUE", {0.2, 0.2, 0.2, 1}),
                       {{"rotation", {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}});
              writer.document["materials"][0]["doubleSided"] = true;
@@ -534,7 +535,7 @@ std::vector<SampleModel> texture_samples() {
              sampler["wrapT"] = clamp_to_edge;
              add_textured_quad(writer, sampler, -1, 3);
          },
-         // The picture lies from 8 to 16.
+         // The picture covers 8 to 16.
          {{2, 2, red}, {9, 9, red}, {30, 2, green}, {2, 30, blue}, {30, 30, white}, {11, 30, blue}, {13, 30, white}}},
         {"TextureMirrors",
          [](GlbWriter& writer) {
@@ -549,7 +550,7 @@ std::vector<SampleModel> texture_samples() {
              add_textured_quad(writer, {{"wrapS", clamp_to_edge}, {"wrapT", clamp_to_edge}}, 0, 1,
                                make_png(2, 1, {255, 0, 0, 255, 0, 0, 255, 255}));
          },
-         // Half a texel at either edge is one colour; repeated, the edges would be mixed.
+         // Half a texel at either edge has a single color; with repetition the edges would be mixed.
          {{0, 16, red}, {6, 16, red}, {25, 16, blue}, {31, 16, blue}}},
         {"TextureIsFiltered",
          [](GlbWriter& writer) {

@@ -1,10 +1,10 @@
-// The sample models under the reader alone, which the sanitizers watch: as they are, cut off and changed.
+// Reads the sample models, under the sanitizers: as they are, truncated and changed.
 #include "tests/unit/sample_models.h"
 
 #include <gtest/gtest.h>
 
 #include "renderer/assets/read_model.h"
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 
 namespace sheer::test::sample_models_read_test {
 
@@ -16,7 +16,7 @@ std::string file_of(const SampleModel& sample) {
     return writer.glb();
 }
 
-/// "" where it is read.
+/// "" if it can be read.
 std::string refusal_of(const std::string& bytes) {
     try {
         read_model(bytes, no_other_files);

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "renderer/scene/scene_info.h"
 #include "renderer/scene/textures.h"
+#include "renderer/spec/spec.h"
 
 namespace sheer::scene_test {
 
@@ -61,7 +62,7 @@ struct SizeRow {
 /// Section 3 of the paper, in its window of 512 x 512 pixels.
 class QuadSizes : public testing::TestWithParam<SizeRow> {};
 
-TEST_P(QuadSizes, AreThePapers) {
+TEST_P(QuadSizes, AreThoseOfThePaper) {
     const SizeRow& row = GetParam();
     const Geometry geometry = build_quads({{"distribution", row.distribution}, {"count", 500}});
     ASSERT_EQ(geometry.primitives.size(), 500u);
@@ -105,7 +106,7 @@ TEST(Quads, StaySquareAndVisibleInAWideImage) {
     }
 }
 
-TEST(Quads, HaveDepthsOfTheirOwnAndDependOnTheSeed) {
+TEST(Quads, HaveDistinctDepthsAndDependOnTheSeed) {
     const Geometry first = build_quads({{"count", 300}, {"seed", 5}}),
                    again = build_quads({{"count", 300}, {"seed", 5}}),
                    other = build_quads({{"count", 300}, {"seed", 6}});
@@ -121,7 +122,7 @@ TEST(Quads, HaveDepthsOfTheirOwnAndDependOnTheSeed) {
     EXPECT_NE(first.vertices[0].position, other.vertices[0].position);
 }
 
-/// FNV-1a over the bytes: the same on every platform, so a change of the picture is seen.
+/// FNV-1a over the bytes: the same on every platform, so that a change of the picture is noticed.
 std::uint64_t checksum(const std::vector<std::uint8_t>& bytes) {
     std::uint64_t hash = 14695981039346656037u;
     for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211u;
@@ -141,7 +142,7 @@ TEST_P(Textures, HaveAllMipmapsAndFourVariants) {
                       static_cast<std::size_t>(levels[level].size_px) * levels[level].size_px * 4);
         }
         pictures.insert(checksum(levels[0].rgba));
-        // The mean alpha of the whole survives in the last level: seven halvings round half a level each.
+        // The last level keeps the mean alpha of the whole picture: seven halvings round by half a level each.
         double sum = 0;
         for (std::size_t i = 3; i < levels[0].rgba.size(); i += 4) sum += levels[0].rgba[i];
         EXPECT_NEAR(levels[6].rgba[3], sum / (64 * 64), 3.5);
@@ -208,7 +209,7 @@ TEST_P(Scenes3d, HaveAsManyTransparentPrimitivesAsAskedAndOpaqueOnes) {
         EXPECT_EQ(vertex.uv == untextured_uv, geometry.primitives[vertex.primitive].opaque);
 }
 
-/// The default camera has all of it in the picture, between the near and the far plane, at any aspect.
+/// The default camera shows the whole scene, between the near and the far plane, at any aspect ratio.
 TEST_P(Scenes3d, AreFramed) {
     for (const auto& [width_px, height_px] : {std::pair{64, 64}, {128, 32}, {32, 128}}) {
         SCOPED_TRACE(width_px);
@@ -227,7 +228,7 @@ TEST_P(Scenes3d, AreFramed) {
     }
 }
 
-TEST_P(Scenes3d, DependOnTheSeedAlone) {
+TEST_P(Scenes3d, DependOnlyOnTheSeed) {
     const Geometry first = build_scene(GetParam().scene), again = build_scene(GetParam().scene),
                    other = build_scene(GetParam().other_seed);
     ASSERT_EQ(first.vertices.size(), again.vertices.size());
@@ -240,7 +241,7 @@ TEST_P(Scenes3d, DependOnTheSeedAlone) {
     EXPECT_GT(moved, 4 * GetParam().transparent / 2);
 }
 
-/// The depth that sorting goes by is that of the middle of the primitive, ahead of the eye: clip w, for a perspective.
+/// The depth for sorting is that of the middle of the primitive, along the view direction: clip w for a perspective.
 TEST_P(Scenes3d, AreSortedByTheDepthOfTheirMiddles) {
     const Geometry geometry = build_scene(GetParam().scene);
     for (const Primitive& primitive : geometry.primitives) {
@@ -277,7 +278,7 @@ INSTANTIATE_TEST_SUITE_P(
                                600}),
     [](const testing::TestParamInfo<Scene3dRow>& row) { return row.param.name; });
 
-/// Drawing sprites in depth order is exact only because each has one depth, to the last bit.
+/// Drawing sprites in depth order is exact only because each has a single depth, to the last bit.
 TEST(Particles, FaceTheCamera) {
     const Geometry geometry = build_scene(
         {{"type", "particles"}, {"count", 200}, {"camera", {{"eye", {3, 5, 2}}, {"target", {0.3, 1, -0.2}}}}});
@@ -293,7 +294,7 @@ TEST(Particles, FaceTheCamera) {
     }
 }
 
-/// Half the diagonal of a sprite, and its alpha, of the transparent primitives in turn.
+/// Half the diagonal and the alpha of each transparent sprite, in order.
 std::vector<std::pair<float, float>> sprites_of(const json& fields) {
     json scene = {{"type", "particles"}};
     scene.update(fields);
@@ -309,8 +310,8 @@ std::vector<std::pair<float, float>> sprites_of(const json& fields) {
     return sprites;
 }
 
-/// With one seed the first sprites are the same ones, however many there are.
-TEST(Particles, AreAsLargeAndOpaqueWhateverTheirCountWhereThatIsAsked) {
+/// With the same seed the first sprites are the same, however many there are.
+TEST(Particles, KeepTheirSizeAndOpacityForAnyCountIfRequested) {
     const auto few = sprites_of({{"count", 50}, {"fit_count", false}}), usual = sprites_of({{"count", 2000}}),
                many = sprites_of({{"count", 4000}, {"fit_count", false}}), fitted = sprites_of({{"count", 32000}});
     for (std::size_t i = 0; i < few.size(); ++i) {
@@ -342,7 +343,7 @@ TEST(Particles, AreAMillionAtMost) {
     EXPECT_THROW(build_scene({{"type", "particles"}, {"count", 0}}), SpecError);
 }
 
-TEST(Particles, HaveSmokeAsTheirTextureUnlessTold) {
+TEST(Particles, HaveSmokeAsTheirDefaultTexture) {
     const auto texture = [](const json& scene) {
         return parse_spec({{"scene", scene}, {"methods", {"b2f"}}}).scene.at("texture").at("image");
     };
@@ -351,8 +352,8 @@ TEST(Particles, HaveSmokeAsTheirTextureUnlessTold) {
     EXPECT_EQ(texture({{"type", "foliage"}}), "leaf");
 }
 
-/// Planes that are turned at random: their normals have no preferred axis.
-TEST(Foliage, PlanesAreTurnedEveryWay) {
+/// Randomly oriented planes: their normals have no preferred axis.
+TEST(Foliage, PlanesHaveAllOrientations) {
     const Geometry geometry = build_scene({{"type", "foliage"}, {"trees", 2}, {"planes_per_tree", 1000}});
     EXPECT_FALSE(geometry.parallel);
     glm::dvec3 squares(0);

@@ -3,14 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/errors.h"
+#include <fstream>
+
+#include "renderer/core/errors.h"
 #include "server/http/server.h"
 #include "temporary_folder.h"
+#include "tests/source_folder.h"
 
 namespace sheer::cli::service_config_test {
 namespace {
 
 using nlohmann::json;
+using namespace std::chrono_literals;
 
 std::vector<std::string> wrong_fields(const json& document) {
     std::vector<std::string> pointers;
@@ -32,21 +36,71 @@ TEST(ServiceConfigTest, EverythingHasADefault) {
     EXPECT_EQ(config.worker.time_limit, std::chrono::minutes(30));
 }
 
-TEST(ServiceConfigTest, TheShippedFileSaysTheDefaults) {
-    const ServiceConfig shipped = load_service_config(SHEER_SOURCE_DIR "/configs/server.json");
-    const ServiceConfig defaults = load_service_config("");
-    EXPECT_EQ(shipped.listen, defaults.listen);
-    EXPECT_EQ(shipped.http.max_connections, defaults.http.max_connections);
-    EXPECT_EQ(shipped.http.drain_bytes, defaults.http.drain_bytes);
-    EXPECT_EQ(shipped.http.event_heartbeat, defaults.http.event_heartbeat);
-    EXPECT_EQ(shipped.max_queued, defaults.max_queued);
-    EXPECT_EQ(shipped.leases.heartbeat_ms, defaults.leases.heartbeat_ms);
-    EXPECT_EQ(shipped.max_asset_bytes, defaults.max_asset_bytes);
-    EXPECT_EQ(shipped.upload_check.memory_limit_bytes, defaults.upload_check.memory_limit_bytes);
-    EXPECT_EQ(shipped.upload_check.time_limit, defaults.upload_check.time_limit);
-    EXPECT_EQ(shipped.worker.memory_limit_bytes, defaults.worker.memory_limit_bytes);
-    EXPECT_EQ(shipped.pixel_time_limit, defaults.pixel_time_limit);
-    EXPECT_EQ(shipped.worker.poll_interval, defaults.worker.poll_interval);
+TEST(ServiceConfigTest, TheShippedFileHasTheDefaults) {
+    std::ifstream file(std::string(source_folder()) + "/configs/server.json");
+    const json shipped = json::parse(file);
+    std::vector<FieldError> none;
+    EXPECT_EQ(shipped, read_fields(json::object(), "", service_config_fields(), none));
+}
+
+TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
+    const ServiceConfig config = read_service_config(json::parse(R"({
+        "listen": "[::1]:1", "data": "d", "workers": 2, "log_level": "error",
+        "http": {"max_connections": 3, "max_streams_per_client": 4, "threads": 10, "header_bytes": 1025, "body_bytes": 1026,
+                 "drain_bytes": 7, "idle_timeout_s": 8, "header_timeout_s": 9, "body_timeout_s": 10.5,
+                 "write_timeout_s": 11, "event_heartbeat_s": 12, "stop_timeout_s": 13, "max_wait_s": 14,
+                 "ready_within_s": 15, "devices_cache_s": 16},
+        "jobs": {"max_queued": 17, "lease_s": 19, "heartbeat_s": 18, "max_attempts": 5},
+        "assets": {"max_bytes": 1027, "check_memory_bytes": 21, "check_time_s": 22},
+        "worker": {"memory_limit_bytes": 23, "time_limit_s": 24, "pixel_time_limit_s": 25, "poll_s": 0.25,
+                   "probe_interval_s": 27}})"));
+    const http::Limits& http = config.http;
+    EXPECT_EQ(config.listen, "[::1]:1");
+    EXPECT_EQ(config.data, "d");
+    EXPECT_EQ(config.workers, 2);
+    EXPECT_EQ(config.log_level, "error");
+    EXPECT_EQ(http.max_connections, 3);
+    EXPECT_EQ(http.max_streams_per_client, 4);
+    EXPECT_EQ(http.threads, 10);
+    EXPECT_EQ(http.header_bytes, 1025u);
+    EXPECT_EQ(http.body_bytes, 1026u);
+    EXPECT_EQ(http.drain_bytes, 7u);
+    EXPECT_EQ(http.idle_timeout, 8s);
+    EXPECT_EQ(http.header_timeout, 9s);
+    EXPECT_EQ(http.body_timeout, 10'500ms);
+    EXPECT_EQ(http.write_timeout, 11s);
+    EXPECT_EQ(http.event_heartbeat, 12s);
+    EXPECT_EQ(http.stop_timeout, 13s);
+    EXPECT_EQ(config.answers.max_wait, 14s);
+    EXPECT_EQ(config.answers.ready_within, 15s);
+    EXPECT_EQ(config.devices_cache, 16s);
+    EXPECT_EQ(config.answers.max_queued, 17u);
+    EXPECT_EQ(config.answers.max_checks, 5);
+    EXPECT_EQ(config.answers.max_diffs, 5);
+    EXPECT_EQ(config.leases.heartbeat_ms, 18'000);
+    EXPECT_EQ(config.leases.lease_ms, 19'000);
+    EXPECT_EQ(config.leases.max_attempts, 5);
+    EXPECT_EQ(config.worker.rules.lease_ms, 19'000);
+    EXPECT_EQ(config.answers.max_asset_bytes, 1027u);
+    EXPECT_EQ(config.upload_check.memory_limit_bytes, 21u);
+    EXPECT_EQ(config.upload_check.time_limit, 22s);
+    EXPECT_EQ(config.worker.memory_limit_bytes, 23u);
+    EXPECT_EQ(config.pixel.memory_limit_bytes, 23u);
+    EXPECT_EQ(config.worker.time_limit, 24s);
+    EXPECT_EQ(config.pixel.time_limit, 25s);
+    EXPECT_EQ(config.worker.poll_interval, 250ms);
+    EXPECT_EQ(config.worker.probe_interval, 27s);
+}
+
+TEST(ServiceConfigTest, TheCommandLineOverridesTheFile) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.file("server.json", R"({"workers": 3, "listen": "[::1]:1"})");
+    const ServiceConfig config = load_service_config(file, {{"workers", 0}});
+    EXPECT_EQ(config.workers, 0);
+    EXPECT_EQ(config.listen, "[::1]:1");
+    EXPECT_EQ(load_service_config("", {{"data", "d"}}).data, "d");
+    EXPECT_THROW(load_service_config(file, {{"workers", 257}}), SpecError);
+    EXPECT_THROW(load_service_config(folder.file("list.json", "[]"), {{"workers", 1}}), SpecError);
 }
 
 TEST(ServiceConfigTest, SecondsAreRead) {

@@ -1,4 +1,4 @@
-// Specs that nobody meant to write: each is read or refused, and nothing else happens.
+// Random specs: each is read or refused, and nothing else happens.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "renderer/spec/spec.h"
+#include "tests/source_folder.h"
 
 namespace sheer::spec_fuzz_test {
 
@@ -15,10 +16,10 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-/// The ready specs, and one of every scene with every method.
+/// The ready-made specs, and one with every method for each scene.
 std::vector<json> seeds() {
     std::vector<json> all;
-    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(SHEER_SOURCE_DIR) / "configs/specs"))
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(source_folder()) / "configs/specs"))
         if (entry.path().extension() == ".json") all.push_back(json::parse(std::ifstream(entry.path())));
     json methods = json::array();
     for (const json& method : describe_methods()) methods.push_back({{"id", method["id"]}});
@@ -64,7 +65,7 @@ class Mutator {
         return document;
     }
 
-    /// The same in the bytes.
+    /// The same for the bytes.
     std::string scratch(std::string text) {
         for (std::size_t i = 0, count = 1 + below(3); i < count && !text.empty(); ++i) {
             const std::size_t at = below(text.size());
@@ -151,12 +152,12 @@ TEST(SpecFuzz, AMutatedSpecIsReadOrRefused) {
             ADD_FAILURE() << error.what() << "\n" << document.dump();
         }
     }
-    // Else it would not be specs that are tried.
+    // Otherwise the test would not try specs.
     EXPECT_GT(taken, 100);
     EXPECT_GT(refused, 1000);
 }
 
-TEST(SpecFuzz, AScratchedTextIsReadOrRefused) {
+TEST(SpecFuzz, AMutatedTextIsReadOrRefused) {
     const std::vector<json> all = seeds();
     Mutator mutator(7);
     for (int i = 0; i < 1000; ++i) {
@@ -205,7 +206,7 @@ TEST(SpecFuzz, EveryFieldRefusesEveryWrongTypeAtItsPlace) {
             } catch (const SpecError& error) {
                 bool named = false;
                 for (const FieldError& field : error.errors()) named |= field.pointer.starts_with(pointer);
-                // A reference or a check to a method that is gone is an error too, and so may stand alone.
+                // A reference or check that names a removed method is an error too, and may be the only one.
                 EXPECT_TRUE(named || std::string(pointer).starts_with("/methods")) << error.what() << value;
             } catch (const std::exception& error) {
                 ADD_FAILURE() << pointer << " " << value << ": " << error.what();

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/methods/method.h"
+#include "renderer/methods/shared/method.h"
 #include "renderer/scene/scene_info.h"
 
 namespace sheer::spec_test {
@@ -58,14 +58,14 @@ TEST(Spec, NormalisedFormGivesTheSameSpec) {
     EXPECT_EQ(first.canonical_text(), second.canonical_text());
 }
 
-TEST(Spec, IdsMatchWithoutRegardToCase) {
+TEST(Spec, IdsIgnoreCase) {
     const Spec spec = parse_spec({{"scene", {{"type", "Quads"}}}, {"methods", {"B2F", "f2Bd"}}, {"baseline", "F2BD"}});
     EXPECT_EQ(spec.scene_type, "quads");
     EXPECT_EQ(spec.methods[0].id, "b2f");
     EXPECT_EQ(spec.baseline, "f2bd");
 }
 
-TEST(Spec, LabelsAreNumberedWhereTheyNeedBe) {
+TEST(Spec, LabelsAreNumberedIfNecessary) {
     const Spec spec = parse_spec(with("/methods", {"f2bd", {{"id", "f2bd"}, {"label", "f2bd 2"}}, "f2bd", "b2f"}));
     std::vector<std::string> labels;
     for (const MethodSpec& method : spec.methods) labels.push_back(method.label);
@@ -147,7 +147,7 @@ const std::vector<BadSpec>& bad_specs() {
 INSTANTIATE_TEST_SUITE_P(All, BadSpecs, testing::ValuesIn(bad_specs()),
                          [](const testing::TestParamInfo<BadSpec>& spec) { return spec.param.name; });
 
-TEST(Spec, ErrorsSayWhatWouldBeRight) {
+TEST(Spec, ErrorsSayWhatIsAllowed) {
     try {
         parse_spec(with("/scene/count", 0));
         FAIL();
@@ -167,8 +167,8 @@ TEST(Spec, TextThatIsNotJsonIsOneError) {
     }
 }
 
-/// What the schema allows and forbids must be what the reader does; spot checks of each kind of field.
-TEST(Schema, SaysWhatTheReaderDoes) {
+/// The schema must allow and forbid the same as the reader; spot checks of each kind of field.
+TEST(Schema, AgreesWithTheReader) {
     const json schema = spec_schema();
     EXPECT_EQ(schema["additionalProperties"], false);
     EXPECT_EQ(schema["required"], json({"scene", "methods"}));
@@ -190,6 +190,7 @@ TEST(Catalog, DescribesParameters) {
         EXPECT_EQ(threshold["default"], 0.01);
         EXPECT_EQ(threshold["min"], 0);
         EXPECT_EQ(threshold["max"], 1);
+        EXPECT_EQ(threshold.size(), 8u) << "members without information are left out: " << threshold;
         return;
     }
     FAIL() << "f2bd is not listed";

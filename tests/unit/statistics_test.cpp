@@ -1,5 +1,5 @@
-// What the samples of a comparison are made to say. Noise is drawn from a seeded generator, so that each test gives the
-// same answer every time.
+// The statistics of a comparison's samples. Noise comes from a seeded generator, so that each test gives the same
+// answer every time.
 #include "renderer/report/statistics.h"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ TEST(Statistics, OfTenByHand) {
     const std::vector<double> samples = {10, 9, 8, 7, 6, 5, 4, 3, 2, 1};
     // 2 (1 + 10) / 2^10 = 2.1 % outside ranks 2 to 9, 2 (1 + 10 + 45) / 2^10 = 10.9 % outside 3 to 8.
     EXPECT_EQ(median_interval(samples, 0.05), std::pair(2.0, 9.0));
-    // For three methods 5 % / 3 = 1.67 % are allowed, so it takes the whole range, which 0.2 % lie outside of.
+    // For three methods 5 % / 3 = 1.67 % are allowed, so it takes the whole range, which is missed in 0.2 %.
     EXPECT_EQ(median_interval(samples, 0.05 / 3), std::pair(1.0, 10.0));
     // 26 methods allow 0.192 %, less than 2 / 2^10 = 0.195 %.
     EXPECT_EQ(median_interval(samples, 0.05 / 26), std::nullopt);
@@ -47,7 +47,7 @@ TEST(Statistics, FiveSamplesGiveNoInterval) {
     EXPECT_THROW(summarize({}), std::invalid_argument);
 }
 
-/// Ranks 40 to 61 of 100 hold the median with 96.5 % (tables of the sign test).
+/// Ranks 40 to 61 of 100 contain the median with 96.5 % (tables of the sign test).
 TEST(Statistics, OfAHundred) {
     std::vector<double> samples;
     for (int i = 1; i <= 100; ++i) samples.push_back(i);
@@ -68,15 +68,15 @@ TEST(PairedRatios, AreOfTheSameRound) {
 }
 
 TEST(NoiseFloor, ReachesToTheFartherEnd) {
-    // Of six the interval is the whole range: 0.8 is 1.25 times away from 1, 1.1 only 1.1 times.
+    // For six samples the interval is the whole range: 0.8 is 1.25 times away from 1, 1.1 only 1.1 times.
     const NoiseFloor noise = noise_floor({0.8, 0.9, 1, 1, 1.05, 1.1});
     EXPECT_EQ(noise.value, 1);
     EXPECT_EQ(noise.ci95, std::pair(0.8, 1.1));
     EXPECT_DOUBLE_EQ(noise.factor, 1.25);
-    // Two rounds have no interval; the ratios are all that there is to go by.
+    // Two rounds have no interval, so only the ratios are used.
     EXPECT_EQ(noise_floor({1.02, 1.5}).ci95, std::nullopt);
     EXPECT_DOUBLE_EQ(noise_floor({1.02, 1.5}).factor, 1.5);
-    // An interval beside 1: the two instances do differ, so 1.1 is no news.
+    // An interval beside 1: the two instances differ, so 1.1 is within the noise.
     EXPECT_DOUBLE_EQ(noise_floor({1.1, 1.1, 1.1, 1.1, 1.1, 1.1}).factor, 1.1);
 }
 
@@ -95,7 +95,7 @@ TEST(Verdict, NeedsAnIntervalBesideOneAndBeyondTheNoise) {
 
     // Two methods allow 2.5 % each, less than the 2 / 2^6 = 3.1 % of six rounds.
     EXPECT_EQ(judge_speedup(faster, 2, std::nullopt).reason, "too few rounds: 6, needs 7");
-    EXPECT_EQ(judge_speedup({0.9, 1.2, 1.2, 1.2, 1.2, 1.2}, 1, std::nullopt).reason, "the interval holds 1");
+    EXPECT_EQ(judge_speedup({0.9, 1.2, 1.2, 1.2, 1.2, 1.2}, 1, std::nullopt).reason, "the interval contains 1");
     EXPECT_EQ(judge_speedup({1, 1, 1, 1, 1, 1}, 1, std::nullopt).verdict, Verdict::not_resolved);
 }
 
@@ -110,7 +110,7 @@ TEST(Verdict, RoundsNeededAreTheFewestWithAnInterval) {
     }
 }
 
-/// One way in which frame times scatter: the time of a frame of `round` whose true time is 1.
+/// A kind of noise: the measured time of a frame in `round` whose true time is 1.
 struct Noise {
     const char* name;
     std::function<double(std::mt19937_64&, int round)> time;
@@ -123,19 +123,19 @@ double normal(std::mt19937_64& random) {
 std::vector<Noise> noises() {
     return {
         {"log-normal", [](std::mt19937_64& random, int) { return std::exp(0.1 * normal(random)); }},
-        {"one frame in ten up to many times as long",
+        {"one frame in ten takes up to many times as long",
          [](std::mt19937_64& random, int) {
              const double time = std::exp(0.03 * normal(random));
              return random() % 10 == 0 ? time * (1 + std::abs(std::cauchy_distribution<double>(0, 1)(random))) : time;
          }},
-        {"a clock that slows down by half, and swings",
+        {"a clock that slows down by half, and oscillates",
          [](std::mt19937_64& random, int round) {
              return (1 + 0.05 * round + 0.3 * std::sin(round)) * std::exp(0.05 * normal(random));
          }},
     };
 }
 
-/// Times of `methods` + 2 contenders, as the rounds give them: the baseline, its second instance, then the methods.
+/// Times of `methods` + 2 contenders, in rounds: the baseline, its second instance, then the methods.
 std::vector<std::vector<double>> rounds(const Noise& noise, int methods, int count, std::mt19937_64& random) {
     std::vector<std::vector<double>> times(static_cast<std::size_t>(methods) + 2);
     for (int round = 0; round < count; ++round)
@@ -151,7 +151,7 @@ std::vector<Verdict> verdicts(const std::vector<std::vector<double>>& times) {
     return all;
 }
 
-/// The promise is 95 of 100 comparisons in which nothing at all is resolved, however many methods there are.
+/// In 95 of 100 comparisons nothing at all may be resolved, however many methods there are.
 TEST(Verdict, IdenticalMethodsAreNotResolved) {
     constexpr int trials = 1000;
     for (const Noise& noise : noises()) {
@@ -169,8 +169,8 @@ TEST(Verdict, IdenticalMethodsAreNotResolved) {
     }
 }
 
-/// The same without the noise floor: the correction for the number of methods must do by itself, and an uncorrected
-/// interval must not, or this test could see nothing.
+/// The same without the noise floor: the correction for the number of methods must suffice, and an uncorrected interval
+/// must not, or this test would show nothing.
 TEST(Verdict, TheCorrectionIsNeededAndEnough) {
     constexpr int trials = 1000, methods = 8, count = 30;
     std::mt19937_64 random(2);
@@ -208,7 +208,7 @@ TEST(Verdict, FindsADifferenceOf30Percent) {
     }
 }
 
-TEST(Verdict, TheIntervalHoldsTheTrueRatio) {
+TEST(Verdict, TheIntervalContainsTheTrueRatio) {
     constexpr int trials = 1000;
     for (const Noise& noise : noises()) {
         std::mt19937_64 random(4);

@@ -1,4 +1,4 @@
-// The suites that there are, and what a report says about one. Expectations are worked out by hand from made-up runs.
+// The suites, and a report's section on one. Expected values are computed by hand from made-up runs.
 #include "renderer/spec/suites.h"
 
 #include <gmock/gmock.h>
@@ -6,9 +6,9 @@
 #include <set>
 
 #include "renderer/report/frontier.h"
-#include "renderer/report/measured.h"
 #include "renderer/report/statistics.h"
 #include "renderer/report/suite.h"
+#include "renderer/results/quantity.h"
 #include "renderer/spec/spec.h"
 
 namespace sheer::suites_test {
@@ -45,20 +45,28 @@ json trend(const std::string& kind, const json& methods, const json& more = json
     return trend;
 }
 
-/// f2bd against f2b: clearly slower at 1 quad, not resolved at 16, clearly faster at 64.
+/// f2bd compared with f2b: clearly slower at 1 quad, not resolved at 16, clearly faster at 64.
 const json runs = json::array(
     {run({{"/scene/count", 1}}, json::array({result("f2b", 0.9, 0.88, 0.92), result("f2bd", 0.5, 0.45, 0.55)})),
      run({{"/scene/count", 16}}, json::array({result("f2b", 1.0, 0.9, 1.1), result("f2bd", 1.05, 0.95, 1.2)})),
      run({{"/scene/count", 64}}, json::array({result("f2b", 1.0, 0.95, 1.05), result("f2bd", 2.0, 1.8, 2.2)}))});
 
+json judged_suite(const Suite& suite, const json& of_runs) {
+    return to_document(suite_report(suite, from_document<std::vector<report::Run>>(of_runs)));
+}
+
 std::string verdict(const json& judged_trend) {
-    return suite_report(suite(judged_trend), runs)["trends"][0]["verdict"];
+    return judged_suite(suite(judged_trend), runs)["trends"][0]["verdict"];
 }
 
 json at(const std::vector<int>& counts) {
     json points = json::array();
     for (const int count : counts) points.push_back({{"/scene/count", count}});
     return {{"at", points}};
+}
+
+json frontier_of(const json& run, const std::string& baseline) {
+    return to_document(frontier(from_document<report::Run>(run), baseline));
 }
 
 bool has_point(const Spec& spec, const json& at) {
@@ -69,7 +77,7 @@ bool has_method(const Spec& spec, const std::string& label) {
     return std::ranges::any_of(spec.methods, [&](const MethodSpec& method) { return method.label == label; });
 }
 
-TEST(Suites, AreThePapersSevenTables) {
+TEST(Suites, AreTheSevenTablesOfThePaper) {
     ASSERT_EQ(all_suites().size(), 7u);
     for (const Suite& one : all_suites()) {
         SCOPED_TRACE(one.id);
@@ -79,6 +87,7 @@ TEST(Suites, AreThePapersSevenTables) {
         for (const json& figure : one.published) {
             EXPECT_TRUE(has_point(spec, figure["at"])) << figure.dump();
             EXPECT_TRUE(has_method(spec, figure["method"].get<std::string>())) << figure.dump();
+            EXPECT_NE(find_quantity(figure["metric"]), nullptr) << figure.dump();
         }
         for (const json& judged : one.trends)
             for (const auto& method : judged["methods"])
@@ -86,7 +95,7 @@ TEST(Suites, AreThePapersSevenTables) {
     }
 }
 
-TEST(Suites, HoldThePublishedFigures) {
+TEST(Suites, HaveThePublishedFigures) {
     const Suite* table1 = find_suite("Paper-Table-1");
     ASSERT_TRUE(table1);
     EXPECT_EQ(table1->published.size(), 33u);
@@ -98,7 +107,7 @@ TEST(Suites, HoldThePublishedFigures) {
     EXPECT_EQ(find_suite("paper-table-8"), nullptr);
 }
 
-TEST(Suites, ScaleThePictureAlone) {
+TEST(Suites, ScaleOnlyThePicture) {
     const Spec spec = parse_spec(suite_spec(*find_suite("paper-table-4"), 0.25));
     EXPECT_EQ(spec.image.width_px, 128);
     EXPECT_EQ(spec.image.height_px, 128);
@@ -119,14 +128,14 @@ TEST(Suites, UnknownOneIsRefused) {
 }
 
 TEST(SuiteReport, SetsPublishedBesideMeasured) {
-    const json figure = suite_report(suite(trend("above", {"f2bd", "f2b"})), runs)["figures"][0];
+    const json figure = judged_suite(suite(trend("above", {"f2bd", "f2b"})), runs)["figures"][0];
     EXPECT_EQ(figure["published"], 1.06);
     EXPECT_EQ(figure["measured"], 1.05);
     EXPECT_EQ(figure["ci95"], json({0.95, 1.2}));
 }
 
-TEST(SuiteReport, WhatWasNotMeasuredIsNull) {
-    const json figure = suite_report(suite(trend("above", {"f2bd", "f2b"})), json::array({runs[0]}))["figures"][0];
+TEST(SuiteReport, MissingMeasurementsAreNull) {
+    const json figure = judged_suite(suite(trend("above", {"f2bd", "f2b"})), json::array({runs[0]}))["figures"][0];
     EXPECT_TRUE(figure["measured"].is_null());
 }
 
@@ -140,7 +149,7 @@ TEST(SuiteReport, AboveHoldsFailsOrIsOpen) {
 TEST(SuiteReport, TooFewSamplesForAnIntervalResolveNothing) {
     json few = runs[2];
     for (json& one : few["results"]) one["speedup"]["ci95"] = nullptr;
-    const json made = suite_report(suite(trend("above", {"f2bd", "f2b"})), json::array({few}));
+    const json made = judged_suite(suite(trend("above", {"f2bd", "f2b"})), json::array({few}));
     EXPECT_EQ(made["trends"][0]["verdict"], "not resolved");
     EXPECT_TRUE(made["figures"][0]["ci95"].is_null());
 }
@@ -160,7 +169,7 @@ TEST(SuiteReport, RangeHoldsForWholeIntervals) {
     EXPECT_EQ(verdict(trend("within", {"f2bd"}, {{"range", {0, 1}}})), "fails");
 }
 
-/// A method that takes `times` in ms, its speedup as Timings would judge it against a baseline of `base`.
+/// A method that takes `times` in ms, with the speedup that Timings would give it for the baseline `base`.
 json timed(const std::string& label, const std::vector<double>& times, double error,
            const std::vector<double>& base = {100, 101, 102, 103, 104, 105, 106, 107, 108, 109}) {
     const Speedup judged = judge_speedup(paired_ratios(base, times), 4, NoiseFloor{1, {}, 1.05});
@@ -169,7 +178,7 @@ json timed(const std::string& label, const std::vector<double>& times, double er
             {"speedup",
              {{"value", judged.value},
               {"ci95", judged.ci95 ? json{judged.ci95->first, judged.ci95->second} : json()},
-              {"verdict", verdict_name(judged.verdict)},
+              {"verdict", word_of(judged.verdict)},
               {"compared", 4}}},
             {"timing", {{"median", median(times)}, {"samples", times}, {"ci95", nullptr}}},
             {"metrics", {{"flip", {{"mean", error}}}}}};
@@ -194,8 +203,8 @@ json timed_run(const json& results, int rounds = 10) {
     return all;
 }
 
-TEST(Frontier, NamesWhatIsDominatedAndByWhom) {
-    const json answer = frontier(
+TEST(Frontier, NamesDominatedMethodsAndTheDominatingOnes) {
+    const json answer = frontier_of(
         timed_run({timed("b2f", at_speed(1), 0.0), timed("f2b", as_fast, 0.002), timed("f2bd", at_speed(4), 0.004),
                    timed("f2bd 0.5", at_speed(5), 0.2), timed("meshkin", at_speed(3), 0.3)}),
         "b2f");
@@ -203,7 +212,7 @@ TEST(Frontier, NamesWhatIsDominatedAndByWhom) {
     ASSERT_EQ(answer["dominated"].size(), 2u);
     EXPECT_EQ(answer["dominated"][0]["method"], "meshkin");
     EXPECT_EQ(answer["dominated"][0]["by"], "f2bd 0.5");
-    EXPECT_EQ(answer["dominated"][0]["reason"], "f2bd 0.5 is resolved faster and no farther from the reference");
+    EXPECT_EQ(answer["dominated"][0]["reason"], "f2bd 0.5 is resolved faster and not farther from the reference");
     EXPECT_EQ(answer["dominated"][1]["method"], "f2b");
     EXPECT_EQ(answer["dominated"][1]["reason"], "b2f is nearer to the reference, and f2b is not resolved faster");
     EXPECT_EQ(answer["fastest"], json({"f2bd 0.5"}));
@@ -219,8 +228,8 @@ TEST(Frontier, NamesWhatIsDominatedAndByWhom) {
     EXPECT_THAT(answer["sentences"][1], HasSubstr("[4.00, 4.00]"));
 }
 
-TEST(Frontier, CallsNothingFastestThatIsNotResolved) {
-    const json answer = frontier(timed_run({timed("b2f", at_speed(1), 0.002), timed("f2b", as_fast, 0.004)}), "b2f");
+TEST(Frontier, CallsOnlyResolvedMethodsFastest) {
+    const json answer = frontier_of(timed_run({timed("b2f", at_speed(1), 0.002), timed("f2b", as_fast, 0.004)}), "b2f");
     EXPECT_TRUE(answer["fastest"].empty());
     EXPECT_TRUE(answer["fastest_under"][0]["method"].is_null());
     for (const json& sentence : answer["sentences"])
@@ -228,17 +237,18 @@ TEST(Frontier, CallsNothingFastestThatIsNotResolved) {
     EXPECT_THAT(answer["sentences"][0],
                 HasSubstr("Under a mean FLIP error of 0.01 no method is resolved faster than b2f."));
 
-    // Four hundredths faster with an interval beside 1, but two instances of the baseline differ by more.
-    const json noise = frontier(timed_run({timed("b2f", at_speed(1), 0.0), timed("f2b", at_speed(1.04), 0.0)}), "b2f");
+    // Faster by 4 % with an interval beside 1, but two instances of the baseline differ by more.
+    const json noise =
+        frontier_of(timed_run({timed("b2f", at_speed(1), 0.0), timed("f2b", at_speed(1.04), 0.0)}), "b2f");
     EXPECT_TRUE(noise["fastest"].empty());
     EXPECT_TRUE(noise["dominated"].empty());
 }
 
 TEST(Frontier, TwoThatAreNotResolvedFromEachOtherAreFastestTogether) {
-    // Both are twice as fast; round by round now one leads and now the other.
+    // Both are twice as fast; round by round the lead alternates.
     const auto first = at_speeds({2, 2.2, 1.9, 2.1, 2.3, 1.8, 2, 2.2, 1.9, 2.1});
     const auto second = at_speeds({2.2, 2, 2.1, 1.9, 2, 2.2, 2.3, 1.8, 2.1, 1.9});
-    const json answer = frontier(
+    const json answer = frontier_of(
         timed_run({timed("b2f", at_speed(1), 0.0), timed("x", first, 0.004), timed("y", second, 0.0041)}), "b2f");
     EXPECT_EQ(std::set<std::string>(answer["fastest"].begin(), answer["fastest"].end()),
               (std::set<std::string>{"x", "y"}));
@@ -246,26 +256,26 @@ TEST(Frontier, TwoThatAreNotResolvedFromEachOtherAreFastestTogether) {
     EXPECT_THAT(answer["sentences"][1], HasSubstr("; not resolved from it: "));
 }
 
-TEST(Frontier, TooFewRoundsAreSaidAndResolveNothing) {
+TEST(Frontier, TooFewRoundsAreReportedAndResolveNothing) {
     const std::vector<double> base = {100, 101, 102};
     const json answer =
-        frontier(timed_run({timed("b2f", base, 0.0, base), timed("f2bd", {10, 10, 10}, 0.004, base)}, 3), "b2f");
+        frontier_of(timed_run({timed("b2f", base, 0.0, base), timed("f2bd", {10, 10, 10}, 0.004, base)}, 3), "b2f");
     EXPECT_EQ(answer["sentences"], json::array({"No time is resolved, too few rounds: 3, needs 8."}));
     EXPECT_TRUE(answer["fastest"].empty());
 }
 
 TEST(Frontier, EqualsDoNotDominateEachOther) {
     const json twins = timed_run({timed("a", at_speed(1), 0.1), timed("b", at_speed(1), 0.1)});
-    EXPECT_EQ(frontier(twins, "a")["methods"], json({"a", "b"}));
-    // Apart in a digit that is not shown.
+    EXPECT_EQ(frontier_of(twins, "a")["methods"], json({"a", "b"}));
+    // They differ in a digit that is not shown.
     const json near_twins = timed_run({timed("a", at_speed(1), 0.1001), timed("b", at_speed(1), 0.1002)});
-    EXPECT_EQ(frontier(near_twins, "a")["methods"], json({"a", "b"}));
+    EXPECT_EQ(frontier_of(near_twins, "a")["methods"], json({"a", "b"}));
 }
 
 TEST(Frontier, NeedsTwoMethodsWithTimeAndError) {
     json bound = result("f2bx", 9, 8, 10);
     bound["metrics"] = nullptr;
-    EXPECT_TRUE(frontier(run(json::object(), json::array({result("b2f", 1, 1, 1), bound})), "b2f").is_null());
+    EXPECT_TRUE(frontier_of(run(json::object(), json::array({result("b2f", 1, 1, 1), bound})), "b2f").is_null());
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(Sweep, ReachesDefaultsAndSetsSeveralFieldsAtOnce) {
     EXPECT_EQ(describe_point(spec.points[1]), "shading 1-texture, size 64");
 }
 
-TEST(Sweep, RefusesWhatIsNoParameter) {
+TEST(Sweep, RefusesOtherFieldsThanParameters) {
     for (const std::string pointer : {"/scene/type", "/scene/no_such", "/timing/rounds", "/methods/1/id", "/title",
                                       "/methods/7/threshold", "scene/count", ""}) {
         SCOPED_TRACE(pointer);
@@ -68,7 +68,7 @@ TEST(Sweep, RefusesWhatIsNoParameter) {
     }
 }
 
-TEST(Sweep, RefusesAWrongValueWhereItStands) {
+TEST(Sweep, RefusesAWrongValueAtItsPointer) {
     const auto errors = errors_of(document(json::array({axis("/image/width", {64}), axis("/scene/count", {1, 0})})));
     ASSERT_EQ(errors.size(), 1u);
     EXPECT_EQ(errors[0].pointer, "/sweep/1");
@@ -106,7 +106,7 @@ TEST(Sweep, RefusesToSetAFieldTwice) {
          "/sweep/1/pointer"},
         {json::array({point({{"/image/width", 8}}), point({{"/image/height", 8}, {"/image/width", 9}})}),
          "/sweep/1/points/0"},
-        // One of the two holds the other one.
+        // One of the two contains the other one.
         {json::array({axis("/scene/layers", {json::array({{{"depth", 0.5}}})}), point({{"/scene/layers/0/alpha", 1}})}),
          "/sweep/1/points/0"},
         {json::array({axis("/methods/1/threshold", {0.1}), axis("/methods/1", {"b2f"})}), "/sweep/1/pointer"},
@@ -122,7 +122,7 @@ TEST(Sweep, RefusesToSetAFieldTwice) {
         EXPECT_EQ(errors[0].pointer, pointer);
         EXPECT_THAT(errors[0].detail, testing::AnyOf(HasSubstr("is swept already"), HasSubstr("overlaps")));
     }
-    // Names of which one only begins like the other are two fields.
+    // Two fields, although the name of one is the beginning of the other's.
     json neighbours = layers;
     neighbours["scene"]["layers"] = json::array();
     for (int i = 0; i < 12; ++i) neighbours["scene"]["layers"].push_back({{"depth", 0.5}});
@@ -139,7 +139,7 @@ TEST(Sweep, OfOneFieldLeavesALargeSceneAlone) {
     const Spec read = parse_spec(spec);
     EXPECT_EQ(read.points.size(), 256u);
     EXPECT_EQ(spec_at(read, read.points[7]).scene["layers"].size(), 4096u);
-    // A point that is wrong is found all the same.
+    // A wrong point is found nevertheless.
     spec["sweep"][0]["values"][200] = 0;
     EXPECT_THAT(errors_of(spec).at(0).detail, HasSubstr("/image/width"));
 }
@@ -153,7 +153,7 @@ TEST(Sweep, IsBoundedInWhatItRepeats) {
     const auto errors = errors_of(spec);
     ASSERT_EQ(errors.size(), 1u);
     EXPECT_EQ(errors[0].pointer, "/sweep");
-    // One large value beside many points.
+    // One large value with many points.
     json large = document(json::array({axis("/scene/shading", json::array({std::string(2'000'000, 'x')})),
                                        axis("/image/width", json(std::vector<int>(256, 8)))}));
     ASSERT_EQ(errors_of(large).size(), 1u);
@@ -162,13 +162,13 @@ TEST(Sweep, IsBoundedInWhatItRepeats) {
     EXPECT_EQ(json_weight(std::string(64, 'x')), 3u);
 }
 
-TEST(Sweep, TellsAHundredErrorsAndCountsTheRest) {
+TEST(Sweep, ListsAHundredErrorsAndCountsTheRest) {
     json values = json::array();
     for (int i = 0; i < 256; ++i) values.push_back(-i);
     EXPECT_EQ(errors_of(document(json::array({axis("/image/width", values)}))).size(), max_told_errors);
 }
 
-TEST(Sweep, ChecksHoldAtThePointsTheyName) {
+TEST(Sweep, ChecksApplyAtThePointsTheyName) {
     json spec = document(json::array({axis("/scene/count", {1, 16})}));
     spec["checks"] =
         json::array({{{"metric", "rmse"}, {"method", "f2bd"}, {"max", 0.1}, {"at", {{"/scene/count", 16}}}}});

@@ -7,7 +7,7 @@
 
 namespace sheer::test {
 
-/// A new folder, removed at the end.
+/// A new folder that is removed at the end.
 class TemporaryFolder {
   public:
     TemporaryFolder() {
@@ -30,7 +30,7 @@ class TemporaryFolder {
         return m_path / name;
     }
 
-    /// How many files there are below `folder`.
+    /// The number of files below `folder`.
     static int count_files(const std::filesystem::path& folder) {
         int count = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))

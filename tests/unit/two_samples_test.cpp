@@ -10,12 +10,12 @@ namespace {
 
 using Times = std::vector<double>;
 
-TEST(MannWhitneyRank, IsThatOfTheTables) {
-    // Of 3 and 3 values there are 20 orders: U is 0 in one of them, 1 in one.
+TEST(MannWhitneyRank, MatchesTheTables) {
+    // 3 and 3 values have 20 orders: U is 0 in one of them, 1 in one.
     EXPECT_EQ(mann_whitney_rank(3, 3, 0.0499), std::nullopt);
     EXPECT_EQ(mann_whitney_rank(3, 3, 0.0501), 0u);
     EXPECT_EQ(mann_whitney_rank(3, 3, 0.1001), 1u);
-    // Critical values of the two-sided test at 5 % (Mann, Whitney, 1947, and every textbook since).
+    // Critical values of the two-sided test at 5 % (Mann, Whitney, 1947, and textbooks since).
     EXPECT_EQ(mann_whitney_rank(5, 5, 0.025), 2u);
     EXPECT_EQ(mann_whitney_rank(8, 8, 0.025), 13u);
     EXPECT_EQ(mann_whitney_rank(10, 10, 0.025), 23u);
@@ -24,11 +24,11 @@ TEST(MannWhitneyRank, IsThatOfTheTables) {
     EXPECT_EQ(mann_whitney_rank(20, 20, 0.025), 127u);
 }
 
-TEST(MannWhitneyRank, IsApproximatedWhereItsCountIsLong) {
+TEST(MannWhitneyRank, IsApproximatedForLargeSets) {
     // Exact values, from the coefficients of the Gaussian binomial in whole numbers.
     EXPECT_NEAR(static_cast<double>(mann_whitney_rank(40, 40, 0.025).value()), 596, 1);
     EXPECT_NEAR(static_cast<double>(mann_whitney_rank(100, 50, 0.025).value()), 2008, 2);
-    // In its far tail the approximation allows less than it could.
+    // In its far tail the approximation is conservative.
     EXPECT_NEAR(static_cast<double>(mann_whitney_rank(40, 40, 0.0025).value()), 508.5, 1.5);
     EXPECT_EQ(mann_whitney_rank(1, 2000, 1e-9), std::nullopt);
 }
@@ -44,18 +44,18 @@ TEST(RatioOfSamples, IsTheMedianOfAllRatios) {
     const RatioOfSamples narrower = ratio_of_samples({8, 2, 4}, {1, 4, 2}, 0.2001);
     EXPECT_DOUBLE_EQ(narrower.ci95->first, 1);
     EXPECT_DOUBLE_EQ(narrower.ci95->second, 4);
-    // An even count: between 1 and 4 lies their geometric mean.
+    // An even count: the geometric mean of 1 and 4.
     EXPECT_DOUBLE_EQ(ratio_of_samples({4}, {1, 4}, 0.05).value, 2);
     EXPECT_FALSE(ratio_of_samples({4}, {1, 4}, 0.05).ci95);
 }
 
-TEST(RatioOfSamples, LeavesOutWhatTookNoTime) {
+TEST(RatioOfSamples, LeavesOutTimesOfZero) {
     EXPECT_DOUBLE_EQ(ratio_of_samples({0, 6}, {3, 0}, 0.05).value, 2);
     EXPECT_THROW(ratio_of_samples({0}, {1}, 0.05), std::invalid_argument);
     EXPECT_THROW(ratio_of_samples({1}, {}, 0.05), std::invalid_argument);
 }
 
-TEST(JudgeTwoSamples, HoldsIntervalAndNoise) {
+TEST(JudgeTwoSamples, UsesIntervalAndNoise) {
     const Times slow = {130, 131, 132, 133, 134, 135}, fast = {100, 101, 102, 103, 104, 105};
     EXPECT_EQ(judge_two_samples(slow, fast, 1, 1).verdict, Verdict::faster);
     EXPECT_EQ(judge_two_samples(fast, slow, 1, 1).verdict, Verdict::slower);
@@ -76,7 +76,7 @@ Times draw(std::mt19937& random, std::size_t count, double factor) {
     return times;
 }
 
-TEST(JudgeTwoSamples, ResolvesNothingWhereNothingDiffersAtLeast95TimesIn100) {
+TEST(JudgeTwoSamples, ResolvesNothingForEqualMethodsAtLeast95TimesIn100) {
     std::mt19937 random(7);
     for (const std::size_t count : {6u, 10u, 40u}) {
         int resolved = 0;
@@ -84,7 +84,7 @@ TEST(JudgeTwoSamples, ResolvesNothingWhereNothingDiffersAtLeast95TimesIn100) {
             const Times a = draw(random, count, 1), b = draw(random, count, 1);
             resolved += judge_two_samples(a, b, 1, 1).verdict != Verdict::not_resolved;
         }
-        // 5 in 100, and three standard deviations of such a count.
+        // 5 in 100, plus three standard deviations of such a count.
         EXPECT_LE(resolved, 50 + 21) << count;
         EXPECT_GE(resolved, 5) << "a test that never resolves anything would pass, too";
     }

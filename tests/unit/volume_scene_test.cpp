@@ -4,6 +4,7 @@
 
 #include "renderer/scene/camera.h"
 #include "renderer/scene/scene_info.h"
+#include "renderer/spec/spec.h"
 
 namespace sheer::volume_scene_test {
 
@@ -53,13 +54,13 @@ double area_of(const Geometry& geometry, const Primitive& primitive) {
             return glm::dvec3(geometry.vertices[geometry.indices[primitive.first_index + i + j]].position);
         };
         const double z = glm::cross(corner(1) - corner(0), corner(2) - corner(0)).z;
-        EXPECT_GE(z, -1e-6) << "a triangle of a convex polygon that is turned the other way";
+        EXPECT_GE(z, -1e-6) << "a triangle of a convex polygon with the opposite orientation";
         area += z / 2;
     }
     return area;
 }
 
-/// A cube of side 2 seen along an axis: squares of area 4, evenly spread from the back to the front.
+/// A cube of side 2 viewed along an axis: squares of area 4, evenly spaced from back to front.
 TEST(VolumeSlices, OfACubeAlongAnAxisAreSquares) {
     auto assets = hand_volume();
     for (const std::array<double, 3>& eye : {std::array{0.0, 1.5, 5.0}, {-5.0, 1.5, 0.0}}) {
@@ -73,8 +74,8 @@ TEST(VolumeSlices, OfACubeAlongAnAxisAreSquares) {
     }
 }
 
-/// Along its diagonal a cube of side 2 is 2 sqrt(3) deep and its middle is a regular hexagon of side sqrt(2), which has
-/// the area 3 sqrt(3); near the corners slices are triangles.
+/// Along its diagonal a cube of side 2 is 2 sqrt(3) deep, and its middle slice is a regular hexagon of side sqrt(2),
+/// which has the area 3 sqrt(3); near the corners slices are triangles.
 TEST(VolumeSlices, OfACubeAlongItsDiagonalGoFromTrianglesToAHexagon) {
     auto assets = hand_volume();
     const Geometry geometry = build({{"slices", 9}, {"camera", camera({3, 4.5, 3})}}, assets);
@@ -103,7 +104,7 @@ TEST(VolumeSlices, AddUpToTheBox) {
     }
 }
 
-/// Drawing slices in depth order is exact only because each has one depth, to the last bit.
+/// Drawing slices in depth order is exact only because each has a single depth, to the last bit.
 TEST(VolumeSlices, HaveOneDepthEach) {
     auto assets = hand_volume();
     const Geometry geometry = build({{"slices", 100}, {"camera", camera({3, 5, 2})}}, assets);
@@ -114,7 +115,7 @@ TEST(VolumeSlices, HaveOneDepthEach) {
     }
 }
 
-/// Corners of the slices lie on the box, whose corners are those of the texture.
+/// The corners of the slices are on the box, whose corners are those of the texture.
 TEST(VolumeSlices, LieOnTheTexture) {
     auto assets = hand_volume({1, 0.5, 0.8});
     const Geometry geometry = build({{"slices", 300}, {"camera", camera({4, 3, 1})}}, assets);
@@ -161,7 +162,7 @@ TEST(VolumeFrame, IsInThePictureAtAnyAspect) {
     }
 }
 
-/// The alpha of a point is that of 1/256 of the longest side: here of 2, and a slice is 2/64 thick.
+/// The alpha of a point is for a thickness of 1/256 of the longest side: here 2/256, while a slice is 2/64 thick.
 TEST(VolumeTransfer, IsBakedForTheDistanceOfTheSlices) {
     auto assets = hand_volume();
     const json points = {{{"value", 0.25}, {"color", {1, 0, 0}}, {"alpha", 0}},
@@ -189,7 +190,7 @@ TEST(VolumeSpec, WrongFieldsAreNamed) {
     const WrongSpec rows[] = {
         {{{"slices", 2049}}, "/scene/slices", "1 to 2048"},
         {{{"transfer", json::array()}}, "/scene/transfer", "1 to 64"},
-        {{{"transfer", {point, point}}}, "/scene/transfer/1/value", "must be over that of the point before"},
+        {{{"transfer", {point, point}}}, "/scene/transfer/1/value", "must be greater than that of the previous point"},
         {{{"transfer", {point, {{"value", 2}, {"color", {1, 1, 1}}, {"alpha", 0}}}}},
          "/scene/transfer/1/value",
          "from 0 to 1"},
@@ -197,15 +198,15 @@ TEST(VolumeSpec, WrongFieldsAreNamed) {
         {{{"volume", {{"data", "x"}, {"raw", {{"size", {2, 2.5, 2}}}}}}}, "/scene/volume/raw/size/1", "whole number"},
         {{{"volume", {{"data", "x"}, {"raw", {{"size", {2, 2, 1025}}}}}}}, "/scene/volume/raw/size/2", "1 to 1024"},
         {{{"volume", {{"data", "x"}, {"raw", {{"voxel", "uint8"}}}}}}, "/scene/volume/raw/size", "is missing"},
-        {{{"volume", {{"raw", {{"size", {2, 2, 2}}}}}}}, "/scene/volume/raw", "no use to the built-in head"},
-        {{{"volume", {{"range", {0, 1}}}}}, "/scene/volume/range", "no use to the built-in head"},
-        {{{"volume", {{"data", "x"}, {"range", {7, 7}}}}}, "/scene/volume/range/1", "must be over the first"},
+        {{{"volume", {{"raw", {{"size", {2, 2, 2}}}}}}}, "/scene/volume/raw", "not apply to the built-in head"},
+        {{{"volume", {{"range", {0, 1}}}}}, "/scene/volume/range", "not apply to the built-in head"},
+        {{{"volume", {{"data", "x"}, {"range", {7, 7}}}}}, "/scene/volume/range/1", "must be greater than the first"},
         {{{"volume", {{"data", "x"}, {"range", {1}}}}}, "/scene/volume/range", "array of 2 numbers"},
         {{{"camera", {{"eye", {1, 1, 1}}, {"target", {1, 1, 1}}}}}, "/scene/camera/target", "must differ from eye"}};
     for (const WrongSpec& row : rows) {
         try {
             spec_of(row.fields);
-            ADD_FAILURE() << row.fields << " is taken";
+            ADD_FAILURE() << row.fields << " is accepted";
         } catch (const SpecError& error) {
             ASSERT_EQ(error.errors().size(), 1u) << row.fields << error.what();
             EXPECT_EQ(error.errors()[0].pointer, row.pointer);
@@ -233,8 +234,8 @@ TEST(VolumeSpec, RangeGoesToTheReader) {
     EXPECT_EQ(assets.m_options.range, glm::dvec2(-1000, 2000.5));
 }
 
-/// Bytes 50 and 250 are worth 0 and 1; the texture gives 0..1 for 0..255.
-TEST(VolumeSpec, BytesAreWorthWhatTheirRangeSays) {
+/// Bytes 50 and 250 represent 0 and 1; the texture gives 0..1 for 0..255.
+TEST(VolumeSpec, BytesAreScaledByTheRange) {
     HandVolume assets({.size = {1, 1, 1}, .bytes = {128}, .floats = {}, .byte_range = {50, 250}});
     const glm::vec2 value = build(json::object(), assets).volume->value;
     EXPECT_NEAR(50.0 / 255 * value.x + value.y, 0, 1e-6);
@@ -243,7 +244,7 @@ TEST(VolumeSpec, BytesAreWorthWhatTheirRangeSays) {
     EXPECT_EQ(build(json::object(), usual).volume->value, glm::vec2(1, 0));
 }
 
-TEST(VolumeSpec, AFileThatIsNotThereIsNamed) {
+TEST(VolumeSpec, AMissingFileIsNamed) {
     NoAssets none;
     try {
         build(json::object(), none);
@@ -255,7 +256,7 @@ TEST(VolumeSpec, AFileThatIsNotThereIsNamed) {
 
 constexpr int head_size = 64;
 
-/// The value at a place in the head's own lengths: the box is from -1 to 1 along y.
+/// The value at a place in the head's own units: the box is from -1 to 1 along y.
 double value_at(const Volume& head, const glm::dvec3& at) {
     const glm::dvec3 half = head.sides(), middle(0, 0, 0.04);
     const glm::ivec3 voxel((at - middle + half) / (2.0 * half) * double{head_size});
@@ -268,7 +269,7 @@ TEST(Head, IsSymmetricAndHasAirAroundIt) {
     for (std::size_t row = 0; row < head.bytes.size(); row += head_size)
         for (std::size_t x = 0; x < head_size / 2; ++x)
             ASSERT_EQ(head.bytes[row + x], head.bytes[row + head_size - 1 - x]);
-    // All faces of the box but the one that cuts the neck.
+    // All faces of the box except the one that cuts the neck.
     for (int a = 0; a < head_size; ++a)
         for (int b = 0; b < head_size; ++b) {
             const auto at = [&](int x, int y, int z) {
@@ -300,7 +301,8 @@ TEST(Head, IsTheSameEverywhere) {
     EXPECT_EQ(hash, 17336386929914346809u);
 }
 
-/// Blocks that no surface comes near are filled from their middles; a grid that blocks do not divide shows no seams.
+/// Blocks far from any surface are filled from their middles; a grid that is not a multiple of the block size shows no
+/// seams.
 TEST(Head, OfAnySizeHasAsMuchBone) {
     const auto share = [](int size) {
         const Volume head = make_head(size);

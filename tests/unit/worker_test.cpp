@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <thread>
 
+#include "server/children/supervisor.h"
 #include "server/worker/report_folder.h"
 #include "server/worker/scratch.h"
-#include "server/worker/supervisor.h"
 #include "store_fixture.h"
 
 namespace sheer::test::worker_test {
@@ -16,38 +17,43 @@ using nlohmann::json;
 using namespace std::chrono_literals;
 
 /// A worker whose renderer is a shell script: $1 render, $2 the spec, $3 --out, $4 the folder.
-class WorkerTest : public StoreTest {
+class WorkerTest : public WithStore {
   protected:
-    WorkerTest() { m_options.data = m_folder.path() / "data"; }
+    WorkerTest() {
+        m_options.scratch = m_data.scratch();
+        m_options.data = "the archive";
+    }
 
     void run_with(const std::string& script) {
         std::filesystem::remove(m_folder.path() / "renderer");
         m_options.program = m_folder.file("renderer", "#!/bin/sh\n" + script + "\n");
         std::filesystem::permissions(m_options.program, std::filesystem::perms::owner_all);
         EXPECT_TRUE(Worker(m_store, m_options, m_clock).run_next(m_stop));
-        EXPECT_TRUE(std::filesystem::is_empty(m_options.data / "scratch"));
+        EXPECT_TRUE(std::filesystem::is_empty(m_options.scratch));
     }
 
-    /// Leaves a report with one picture.
+    /// Writes a report with one picture.
     std::string leave_report(const std::string& picture, const std::string& sha256) const {
-        return fmt::format(
-            R"(mkdir "$4"; printf %s '{}' > "$4/{}"; printf %s '{}' > "$4/report.json")", picture, sha256,
-            R"({"verdict": "none", "id": null, "picture": {"url": "u", "media_type": "image/png", "sha256": ")" +
-                sha256 + R"("}})");
+        return fmt::format(R"(mkdir "$4"; printf %s '{}' > "$4/{}"; printf %s '{}' > "$4/report.json")", picture,
+                           sha256,
+                           R"({"verdict": "none", "runs": [{"reference": {"images":
+                {"color": {"url": "u", "media_type": "image/png", "sha256": ")" +
+                               sha256 + R"("}}}}]})");
     }
 
-    JobError error(const std::string& id) { return m_store.find(id)->error.value_or(JobError{"none", "none"}); }
+    JobError error(const std::string& id) { return m_reports.find(id)->error.value_or(JobError{"none", "none"}); }
 
     StopSignal m_stop;
-    WorkerOptions m_options{.data = {}, .name = "worker", .time_limit = 20s, .rules = {.heartbeat_ms = 50}};
+    WorkerOptions m_options{
+        .scratch = {}, .data = {}, .name = "worker", .time_limit = 20s, .rules = {.heartbeat_ms = 50}};
 };
 
-TEST_F(WorkerTest, CommitsWhatTheRendererLeft) {
+TEST_F(WorkerTest, CommitsTheRenderersOutput) {
     const std::string id = submit("title");
     const std::string sha256 = sha256_hex("picture");
     run_with(leave_report("picture", sha256));
     ASSERT_EQ(status(id), Status::done);
-    const json report = json::parse(m_store.find(id)->report);
+    const json report = json::parse(m_reports.find(id)->report);
     EXPECT_EQ(report["id"], id);
     EXPECT_EQ(report["status"], "done");
     EXPECT_EQ(report["progress"], 1.0);
@@ -55,7 +61,7 @@ TEST_F(WorkerTest, CommitsWhatTheRendererLeft) {
     EXPECT_EQ(report["finished_at"], utc_text(m_now_ms));
     EXPECT_EQ(report["spec"]["title"], "title");
     EXPECT_EQ(report["spec_sha256"], "hash of title");
-    EXPECT_EQ(read_file(m_store.find_blob(sha256)->path, 100), "picture");
+    EXPECT_EQ(picture(sha256), "picture");
 }
 
 TEST_F(WorkerTest, AFailedCheckIsADoneReport) {
@@ -66,8 +72,9 @@ TEST_F(WorkerTest, AFailedCheckIsADoneReport) {
 
 TEST_F(WorkerTest, TheRendererGetsTheSpec) {
     const std::string id = submit("told");
-    run_with(R"([ "$1 $3" = "render --out" ] || exit 9; grep -q '"title":"told"' "$2" || exit 9; )" +
-             leave_report("p", sha256_hex("p")));
+    run_with(
+        R"([ "$1 $3 $5 $6" = "render --out --data the archive" ] || exit 9; grep -q '"title":"told"' "$2" || exit 9; )" +
+        leave_report("p", sha256_hex("p")));
     EXPECT_EQ(status(id), Status::done);
 }
 
@@ -92,13 +99,13 @@ TEST_F(WorkerTest, AJobWhoseFilesTheDiskRefusedIsSetBack) {
     const std::string id = submit();
     run_with(R"(echo '{"error": {"kind": "storage", "detail": "No space left on device", "full": true}}'; exit 3)");
     EXPECT_EQ(status(id), Status::queued);
-    EXPECT_EQ(m_store.find(id)->stage, "waits: No space left on device");
-    EXPECT_NE(m_store.lack_of_room(), "");
-    EXPECT_FALSE(m_store.lease("worker"));
+    EXPECT_EQ(m_reports.find(id)->stage, "waiting: No space left on device");
+    EXPECT_NE(m_readiness.lack_of_room(), "");
+    EXPECT_FALSE(m_queue.lease("worker"));
     m_now_ms += 2'000;
     run_with(R"(echo '{"error": {"kind": "storage", "detail": "Input/output error"}}'; exit 3)");
     EXPECT_EQ(status(id), Status::queued);
-    EXPECT_EQ(m_store.lack_of_room(), "");
+    EXPECT_EQ(m_readiness.lack_of_room(), "");
     m_now_ms += 3'000;
     run_with(leave_report("p", sha256_hex("p")));
     EXPECT_EQ(status(id), Status::done);
@@ -106,11 +113,11 @@ TEST_F(WorkerTest, AJobWhoseFilesTheDiskRefusedIsSetBack) {
 
 TEST_F(WorkerTest, AJobThatGetsNoScratchFolderIsSetBack) {
     const std::string id = submit();
-    std::filesystem::create_directories(m_options.data);
+    std::filesystem::create_directories(m_data.root);
     m_folder.file("data/scratch", "a file where the folder should be");
     EXPECT_TRUE(Worker(m_store, m_options, m_clock).run_next(m_stop));
     EXPECT_EQ(status(id), Status::queued);
-    std::filesystem::remove(m_options.data / "scratch");
+    std::filesystem::remove(m_options.scratch);
     m_now_ms += 1'000;
     run_with(leave_report("p", sha256_hex("p")));
     EXPECT_EQ(status(id), Status::done);
@@ -125,7 +132,7 @@ TEST_F(WorkerTest, ASpecThatKillsInTheSameWayAgainIsNotTriedTwice) {
     EXPECT_EQ(status(again), Status::failed);
 }
 
-TEST_F(WorkerTest, AHangUpHarmsNoRenderer) {
+TEST_F(WorkerTest, RenderersIgnoreSighup) {
     const std::string id = submit();
     run_with("kill -HUP $$; " + leave_report("p", sha256_hex("p")));
     EXPECT_EQ(status(id), Status::done);
@@ -144,7 +151,7 @@ TEST_F(WorkerTest, ARendererThatTakesTooLongIsStopped) {
     EXPECT_EQ(error(id).title, "Rendering took too long");
 }
 
-TEST_F(WorkerTest, AReportThatIsNotWholeIsNotKept) {
+TEST_F(WorkerTest, AnIncompleteReportIsNotKept) {
     const std::string of_other_bytes = leave_report("picture", sha256_hex("other"));
     const std::string no_report = "mkdir $4";
     const std::string no_json = "mkdir $4; echo x > $4/report.json";
@@ -154,19 +161,19 @@ TEST_F(WorkerTest, AReportThatIsNotWholeIsNotKept) {
         EXPECT_EQ(status(id), Status::queued);
         run_with(script);
         EXPECT_EQ(status(id), Status::failed) << script;
-        // The log has the paths, the reader has not.
+        // The log has the paths, but readers do not see them.
         EXPECT_EQ(error(id).detail, "The service's log says why.");
     }
-    EXPECT_EQ(TemporaryFolder::count_files(m_options.data / "blobs"), 0);
+    EXPECT_FALSE(m_blobs.open(sha256_hex("picture")));
 }
 
 TEST_F(WorkerTest, ProgressIsKept) {
     const std::string id = submit();
     std::string seen;
     std::thread watcher([&] {
-        SqliteStore reader(m_options.data, m_rules, m_clock);
+        const auto reader = m_place->open(m_rules, m_clock);
         for (int i = 0; i < 500 && seen.empty(); ++i) {
-            const auto record = reader.find(id);
+            const auto record = reader->reports().find(id);
             if (record->progress == 0.5) seen = record->stage;
             std::this_thread::sleep_for(10ms);
         }
@@ -174,27 +181,27 @@ TEST_F(WorkerTest, ProgressIsKept) {
     run_with(R"(echo '{"progress": 0.5, "stage": "timing"}'; sleep 1; exit 3)");
     watcher.join();
     EXPECT_EQ(seen, "timing");
-    EXPECT_EQ(m_store.last_rendered_ms(), m_now_ms);
+    EXPECT_EQ(m_readiness.last_rendered_ms(), m_now_ms);
 }
 
 TEST_F(WorkerTest, ACancelledJobIsKilled) {
     const std::string id = submit();
     std::thread canceller([&] {
-        SqliteStore other(m_options.data, m_rules, m_clock);
-        while (other.find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
-        EXPECT_EQ(other.remove(id), RemoveResult::cancelling);
+        const auto other = m_place->open(m_rules, m_clock);
+        while (other->reports().find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
+        EXPECT_EQ(other->reports().remove(id), ReportArchive::Removal::cancelling);
     });
     run_with("sleep 60");
     canceller.join();
     EXPECT_EQ(status(id), Status::cancelled);
 }
 
-TEST_F(WorkerTest, AJobThatAnotherWorkerTookIsLeftToIt) {
+TEST_F(WorkerTest, AJobTakenByAnotherWorkerIsLeftToIt) {
     const std::string id = submit();
     std::thread thief([&] {
-        SqliteStore other(m_options.data, m_rules, m_clock);
-        while (other.find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
-        other.end_leases_of("worker");
+        const auto other = m_place->open(m_rules, m_clock);
+        while (other->reports().find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
+        other->queue().end_leases_of("worker");
     });
     run_with("sleep 60");
     thief.join();
@@ -203,10 +210,10 @@ TEST_F(WorkerTest, AJobThatAnotherWorkerTookIsLeftToIt) {
 
 TEST_F(WorkerTest, AStopGivesTheJobBack) {
     const std::string id = submit();
-    // To this thread, since threads that other tests left behind do not block the signal.
+    // Sent to this thread, since threads left by other tests do not block the signal.
     std::thread stopper([&, worker_thread = pthread_self()] {
-        SqliteStore other(m_options.data, m_rules, m_clock);
-        while (other.find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
+        const auto other = m_place->open(m_rules, m_clock);
+        while (other->reports().find(id)->status != Status::running) std::this_thread::sleep_for(10ms);
         pthread_kill(worker_thread, SIGTERM);
     });
     run_with("sleep 60");
@@ -216,23 +223,23 @@ TEST_F(WorkerTest, AStopGivesTheJobBack) {
     EXPECT_EQ(lease().attempt, 1);
 }
 
-TEST_F(WorkerTest, AProbeNotesThatItRendered) {
+TEST_F(WorkerTest, AProbeRecordsThatItRendered) {
     m_options.program = "/bin/false";
     Worker(m_store, m_options, m_clock).probe(m_stop);
-    EXPECT_FALSE(m_store.last_rendered_ms());
+    EXPECT_FALSE(m_readiness.last_rendered_ms());
     m_options.program = "/bin/true";
     Worker(m_store, m_options, m_clock).probe(m_stop);
-    EXPECT_EQ(m_store.last_rendered_ms(), m_now_ms);
+    EXPECT_EQ(m_readiness.last_rendered_ms(), m_now_ms);
 }
 
 TEST_F(WorkerTest, ScratchOfJobsThatDoNotRunIsSwept) {
     const std::string running = submit();
     const Lease job = lease();
-    const std::filesystem::path scratch = m_options.data / "scratch";
+    const std::filesystem::path scratch = m_options.scratch;
     std::filesystem::create_directories(scratch / (running + "-1"));
     std::filesystem::create_directories(scratch / (submit() + "-1"));
     std::filesystem::create_directories(scratch / "odd");
-    sweep_scratch(scratch, m_store);
+    sweep_scratch(scratch, m_reports);
     EXPECT_TRUE(std::filesystem::exists(scratch / (running + "-1")));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch), {}), 1);
     const ScratchFolder second(scratch, running, 2);
@@ -253,12 +260,12 @@ TEST_F(WorkerTest, TheSupervisorReplacesWorkersAndEndsTheirLeases) {
         }
         return std::string();
     };
-    Supervisor supervisor(m_store, {.workers = 1, .program = script, .arguments = {"worker"}, .first_backoff = 10ms});
+    Supervisor supervisor(m_queue, {.workers = 1, .program = script, .arguments = {"worker"}, .first_backoff = 10ms});
     const std::string first = name(0);
     ASSERT_NE(first, "");
     const std::string id = submit();
-    m_store.lease(first);
-    // The name begins with our process id; the worker is our only child of that name.
+    m_queue.lease(first);
+    // The name begins with our process id; the worker is our only child with that name.
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
         std::ifstream children(entry.path() / "children");
         for (pid_t child; children >> child;) kill(child, SIGKILL);
@@ -271,25 +278,40 @@ TEST_F(WorkerTest, TheSupervisorReplacesWorkersAndEndsTheirLeases) {
     EXPECT_EQ(name(1), second);
 }
 
-TEST(ReportFolder, PicturesAreFoundWhereverTheyStand) {
+TEST(ReportFolder, PicturesOfReferencesAndResultsAreFoundOnce) {
     const auto image = [](const char* sha256) {
         return json{{"sha256", sha256}, {"url", "u"}, {"media_type", "image/png"}};
     };
-    const json report = {{"runs", {{{"results", {{{"images", {{"color", image("a")}, {"flip", image("b")}}}}}}}}},
-                         {"again", image("a")},
-                         {"spec_sha256", "c"}};
-    const auto blobs = named_blobs(report, "/folder");
-    ASSERT_EQ(blobs.size(), 2u);
-    EXPECT_EQ(blobs[0].path.parent_path(), "/folder");
+    const json run = {
+        {"reference", {{"images", {{"linear", image("c")}}}}},
+        {"results",
+         {{{"images", {{"color", image("a")}, {"flip", image("b")}}}}, {{"images", {{"color", image("a")}}}}}}};
+    std::multiset<std::string> named;
+    for (const BlobName& blob : named_blobs(from_document<report::Report>({{"runs", {run, run}}})))
+        named.insert(blob.sha256);
+    EXPECT_EQ(named, (std::multiset<std::string>{"a", "b", "c"}));
 }
 
-TEST(ReportFolder, APageIsNoPicture) {
+TEST(ReportFolder, APageIsNotAPicture) {
     const TemporaryFolder folder;
     const std::string sha256 = sha256_hex("<script>");
     folder.file(sha256, "<script>");
     for (const char* type : {"text/html", "image/svg+xml"}) {
-        folder.file("report.json", json{{"a", {{"sha256", sha256}, {"url", "u"}, {"media_type", type}}}}.dump());
+        const json images = {{"color", {{"sha256", sha256}, {"url", "u"}, {"media_type", type}}}};
+        folder.file("report.json", json{{"runs", {{{"reference", {{"images", images}}}}}}}.dump());
         EXPECT_THROW(read_report_folder(folder.path(), Lease{.spec = "{}"}, 0), StoreError) << type;
+    }
+}
+
+TEST(ReportFolder, AReportWithWrongTypesIsRefusedByPointer) {
+    const TemporaryFolder folder;
+    folder.file("report.json", R"({"runs": [{"rounds": {"done": "three"}}]})");
+    try {
+        read_report_folder(folder.path(), Lease{.spec = "{}"}, 0);
+        FAIL();
+    } catch (const StoreError& error) {
+        EXPECT_STREQ(error.what(),
+                     "report.json is not a report: /runs/0/rounds/done must be a whole number, not \"three\"");
     }
 }
 

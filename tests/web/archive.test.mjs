@@ -1,4 +1,4 @@
-// The list of reports against a real service.
+// The list of reports, tested with a real service.
 import assert from "node:assert/strict";
 import { assert_accessible, service_tests } from "./harness.mjs";
 
@@ -38,20 +38,78 @@ page_test("the archive loads more, page by page", {}, async (page) => {
     methods: ["b2f"],
     timing: { rounds: 1 },
   };
-  for (let index = 0; index < 22; ++index) {
-    await post_report({ ...spec, title: `Many ${index}` }, { Prefer: "wait=60" });
-  }
+  // Behind one that takes long they wait, and are cancelled before anything is rendered.
+  const long = { ...spec, image: { width: 512, height: 512 }, timing: { rounds: 1000, max_seconds: 600 } };
+  const { id } = await post_report(long);
+  const cancel = (of) => fetch(`${tests.url()}/api/v1/reports/${of}`, { method: "DELETE" });
+  for (let index = 0; index < 102; ++index) await cancel((await post_report({ ...spec, title: `Many ${index}` })).id);
+  await cancel(id);
   await page.goto(`${tests.url()}/#/reports`);
   const found = page.waitForResponse(/\?.*q=Many/);
   await page.getByLabel("Search reports").fill("Many");
   await found;
-  await page.waitForFunction(() => document.querySelectorAll(".entry").length === 20);
+  await page.waitForFunction(() => document.querySelectorAll(".entry").length === 100);
   await page.getByRole("button", { name: "Load more" }).click();
-  await page.waitForFunction(() => document.querySelectorAll(".entry").length === 22);
+  await page.waitForFunction(() => document.querySelectorAll(".entry").length === 102);
+  await page.getByText("102 reports match").waitFor();
   const titles = await page.locator(".entry-title").allTextContents();
   assert.deepEqual(
     titles,
-    Array.from({ length: 22 }, (_, index) => `Many ${21 - index}`),
+    Array.from({ length: 102 }, (_, index) => `Many ${101 - index}`),
   );
   assert.equal(await page.getByRole("button", { name: "Load more" }).isVisible(), false);
+});
+
+const refused = { expected_statuses: [422] };
+page_test("the archive keeps filters and choice in the address, and follows what is running", refused, async (page) => {
+  const spec = {
+    scene: { type: "layers", layers: [{ depth: 0.5 }] },
+    image: { width: 1, height: 1 },
+    methods: ["b2f"],
+    timing: { rounds: 1 },
+  };
+  const posted = [];
+  for (const width of [1, 1, 2])
+    posted.push(
+      await post_report(
+        { ...spec, title: "Twin", image: { width, height: 1 }, tags: { set: "address" } },
+        { Prefer: "wait=60" },
+      ),
+    );
+  const other = await post_report({ ...spec, title: "Stranger", methods: ["f2b"] }, { Prefer: "wait=60" });
+  await page.goto(`${tests.url()}/#/reports?q=address`);
+  await page.getByText("3 reports match").waitFor();
+  const box = (id) => page.locator(`.entry[data-id="${id}"] input`);
+  await box(posted[0].id).check();
+  await box(posted[2].id).check();
+  await page.getByText("/spec/image/width is 1 in one report and 2 in the other").waitFor();
+  assert.equal(await page.getByRole("button", { name: "Compare" }).isDisabled(), true);
+  await box(posted[2].id).uncheck();
+  await box(posted[1].id).check();
+  await page.getByText("Two reports of the same spec are chosen.").waitFor();
+  await page.waitForURL((url) => posted.slice(0, 2).every(({ id }) => url.href.includes(id)));
+  await page.reload();
+  await page.getByText("Two reports of the same spec are chosen.").waitFor();
+  await assert_accessible(page, "the archive with a choice");
+  await page.getByRole("button", { name: "Compare" }).click();
+  await page.waitForURL(new RegExp(`#/diff/${posted[0].id}/${posted[1].id}`));
+  await page.goBack();
+  await page.getByText("Two reports of the same spec are chosen.").waitFor();
+  await page.getByRole("button", { name: "Remove the filter address" }).click();
+  await page.getByLabel("Method").selectOption("f2b");
+  await page.waitForURL(/method=f2b/);
+  await page.locator(`.entry[data-id="${other.id}"]`).waitFor();
+  await page.goto(`${tests.url()}/#/reports?q=Slow`);
+  await page.getByText("No report matches.").waitFor();
+  const slow = await post_report({
+    ...spec,
+    title: "Slow one",
+    image: { width: 256, height: 256 },
+    scene: { type: "quads", count: 64 },
+    timing: { rounds: 1000, max_seconds: 4 },
+  });
+  await page.goto(`${tests.url()}/#/reports`);
+  const row = page.locator(`.entry[data-id="${slow.id}"]`);
+  await row.locator(".status").waitFor();
+  await row.getByText("no checks").waitFor({ timeout: 60_000 });
 });

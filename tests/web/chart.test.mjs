@@ -1,4 +1,4 @@
-// Scales of charts and what a sweep gives them: values worked out by hand.
+// Scales of charts and the data of sweeps: values worked out by hand.
 import assert from "node:assert/strict";
 import { cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
-// The page's modules end in .js, which older versions of Node take for modules only beside such a package.json.
+// The page's modules end in .js, which older versions of Node accept as modules only next to such a package.json.
 const folder = mkdtempSync(join(tmpdir(), "sheer-modules-"));
 after(() => rmSync(folder, { recursive: true, force: true }));
 cpSync(fileURLToPath(new URL("../../web", import.meta.url)), folder, { recursive: true });
@@ -27,7 +27,7 @@ test("a scale is logarithmic only over more than a decade above 0", () => {
   assert.equal(scale_kind([]), "categories");
 });
 
-test("values are where they belong", () => {
+test("values are at the right places", () => {
   const linear = make_scale("linear", [0, 50], [100, 0]);
   assert.deepEqual([0, 10, 50, 60].map(linear), [100, 80, 0, -20]);
   const log = make_scale("log", [1, 10_000], [20, 420]);
@@ -37,7 +37,7 @@ test("values are where they belong", () => {
   assert.equal(make_scale("linear", [3, 3], [0, 40])(3), 20);
 });
 
-test("axes end on round numbers and hold every value", () => {
+test("axes end at round numbers and contain every value", () => {
   assert.deepEqual(value_axis("linear", [0, 9.3]), { domain: [0, 10], ticks: [0, 2, 4, 6, 8, 10] });
   assert.deepEqual(value_axis("linear", [-3, 4]), { domain: [-4, 4], ticks: [-4, -2, 0, 2, 4] });
   assert.deepEqual(value_axis("linear", [0, 0.3]).ticks, [0, 0.1, 0.2, 0.3]);
@@ -58,7 +58,7 @@ test("steps are 1, 2 and 5", () => {
   );
 });
 
-test("names on an axis have room, the last of them always", () => {
+test("names on an axis do not overlap, and the last one is always shown", () => {
   assert.deepEqual(thinned([0, 10, 20, 30, 40], 20), [0, 20, 40]);
   assert.deepEqual(thinned([0, 35, 40], 20), [0, 40]);
   assert.deepEqual(thinned([0, 100], 20), [0, 100]);

@@ -1,4 +1,4 @@
-// Two reports held against each other, chosen in the archive.
+// The comparison of two reports, chosen in the archive.
 import assert from "node:assert/strict";
 import { assert_accessible, service_tests } from "./harness.mjs";
 
@@ -23,6 +23,7 @@ page_test("two reports chosen in the archive are compared", {}, async (page) => 
   assert.equal(await compare.isDisabled(), true);
   await box(tests.report_id()).focus();
   await page.keyboard.press("Space");
+  await page.getByText("Two reports of the same spec are chosen.").waitFor();
   await assert_accessible(page, "the archive with two chosen");
   await compare.focus();
   await page.keyboard.press("Enter");
@@ -44,8 +45,8 @@ page_test("two reports chosen in the archive are compared", {}, async (page) => 
   await page.waitForURL(new RegExp(`#/diff/${after.id}/${tests.report_id()}$`));
 });
 
-page_test("a picture that changed shows where", {}, async (page) => {
-  // The service never makes two pictures of one spec; here it says that it did.
+page_test("for a picture that changed, it is shown where", {}, async (page) => {
+  // The service never renders different pictures for one spec; here its answer claims that it did.
   const other = await again({ title: "Other" });
   const { runs } = await api(`/reports/${tests.report_id()}`);
   await page.route("**/diff?**", async (route) => {
@@ -70,12 +71,38 @@ page_test("a picture that changed shows where", {}, async (page) => {
   await page.getByText("x 3, y 4").waitFor();
 });
 
-page_test("reports of other specs are refused field by field", { expected_statuses: [404, 422] }, async (page) => {
+page_test("reports of different specs are refused field by field", { expected_statuses: [404, 422] }, async (page) => {
   const other = await again({ image: { width: 32, height: 32 } });
   await page.goto(`${tests.url()}/#/diff/${tests.report_id()}/${other.id}`);
   await page.getByText("These reports cannot be compared").waitFor();
   assert.match(await page.locator(".diff-errors").textContent(), /\/spec\/image\/width is 96 .* 32/);
+  assert.equal(await page.getByText("Compare anyway").count(), 0, "pictures of two sizes cannot be compared");
   await assert_accessible(page, "a diff that is refused");
   await page.goto(`${tests.url()}/#/diff/${tests.report_id()}/nothing`);
   await page.getByText("No such report").waitFor();
+});
+
+page_test("reports are compared if their differences are allowed", { expected_statuses: [422] }, async (page) => {
+  const { spec } = await api(`/reports/${tests.report_id()}`);
+  const other = await again({ scene: { ...spec.scene, seed: spec.scene.seed + 1 } });
+  await page.goto(`${tests.url()}/#/diff/${tests.report_id()}/${other.id}`);
+  await page.getByText("These reports cannot be compared").waitFor();
+  assert.match(await page.locator(".diff-errors").textContent(), /^\/spec\/scene\/seed is \d+ in one report/);
+  await assert_accessible(page, "a diff that can be allowed");
+  await page.getByRole("link", { name: "Compare anyway" }).focus();
+  await page.keyboard.press("Enter");
+  const row = page.locator("table.diff tbody tr[data-label='f2b']");
+  await row.waitFor();
+  assert.equal(await row.locator(".diff-word").first().textContent(), "different");
+  await page.getByText("they differ in /spec/scene/seed.").waitFor();
+  const fields = await page.locator("table.diff-fields tbody tr").allTextContents();
+  assert.ok(fields.includes(`/spec/scene/seed (allowed)${spec.scene.seed}${spec.scene.seed + 1}`), fields.join());
+  await page.getByRole("button", { name: "FLIP", exact: true }).waitFor();
+  await assert_accessible(page, "a diff of different specs");
+  // What is allowed is part of the address.
+  await page.reload();
+  await row.waitFor();
+  await page.getByRole("link", { name: "Swap A and B" }).click();
+  await page.getByText("they differ in /spec/scene/seed.").waitFor();
+  assert.match(page.url(), new RegExp(`#/diff/${other.id}/${tests.report_id()}\\?allow=`));
 });

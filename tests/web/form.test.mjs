@@ -1,4 +1,4 @@
-// The form of a new comparison against a real service.
+// The form of a new comparison, tested with a real service.
 import assert from "node:assert/strict";
 import { plain_png } from "../service/pictures.mjs";
 import { HOSTILE, assert_accessible, field, fill_form, service_tests } from "./harness.mjs";
@@ -6,9 +6,9 @@ import { HOSTILE, assert_accessible, field, fill_form, service_tests } from "./h
 const tests = service_tests();
 const { page_test, api } = tests;
 
-// A slow page is checked meanwhile, when a model or a volume is not chosen yet.
+// A slow page may be checked while no model or volume is chosen yet.
 page_test("the form has the parameters that the service describes", { expected_statuses: [422] }, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   const [methods, scenes] = await Promise.all([api("/methods"), api("/scenes")]);
   for (const method of methods) await page.getByRole("button", { name: `Add ${method.name}`, exact: true }).click();
   const cards = page.locator(".method-list > li");
@@ -25,13 +25,16 @@ page_test("the form has the parameters that the service describes", { expected_s
     assert.ok(await picture.locator("img").evaluate((img) => img.decode().then(() => img.naturalWidth)), scene.id);
     await picture.click();
     assert.equal(await page.locator(`${field("/scene/type")} select`).inputValue(), scene.id);
-    assert.equal(await page.getByRole("button", { name: scene.name, exact: true }).getAttribute("aria-pressed"), "true");
+    assert.equal(
+      await page.getByRole("button", { name: scene.name, exact: true }).getAttribute("aria-pressed"),
+      "true",
+    );
     for (const param of scene.parameters)
       assert.equal(await page.locator(field(`/scene/${param.name}`)).count(), 1, `${scene.id} ${param.name}`);
   }
 });
 
-page_test("what is wrong is said at its field and in the spec", { expected_statuses: [422] }, async (page) => {
+page_test("errors are shown at the field and in the spec", { expected_statuses: [422] }, async (page) => {
   await fill_form(page, tests.url());
   await page.locator(`${field("/scene/count")} input`).fill("0");
   const error = page.locator(`${field("/scene/count")} > .error-text`);
@@ -47,7 +50,7 @@ page_test("what is wrong is said at its field and in the spec", { expected_statu
   assert.equal(await page.getByRole("button", { name: "Run comparison" }).isDisabled(), true);
 });
 
-page_test("form and spec are kept in step", {}, async (page) => {
+page_test("form and spec are kept in sync", {}, async (page) => {
   await fill_form(page, tests.url());
   await page.getByRole("tab", { name: "Spec" }).click();
   const text = page.getByLabel("Spec as JSON");
@@ -74,7 +77,7 @@ page_test("form and spec are kept in step", {}, async (page) => {
 
 page_test("the spec of a report can be used again", {}, async (page) => {
   await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
-  await page.getByRole("button", { name: "Use this spec again" }).click();
+  await page.getByRole("button", { name: "Edit and run" }).click();
   assert.equal(await page.locator(`${field("/title")} input`).inputValue(), HOSTILE);
   assert.equal(await page.locator(`${field("/image/height")} input`).inputValue(), "64");
   await page.getByText("The spec is valid.").waitFor();
@@ -93,7 +96,7 @@ page_test("the theme is kept", {}, async (page) => {
 });
 
 page_test("a camera is in the spec while its box is ticked", {}, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   await page.locator(`${field("/scene/type")} select`).selectOption("foliage");
   const box = page.getByLabel("Set the camera");
   assert.equal(await box.isChecked(), false);
@@ -117,8 +120,8 @@ page_test("a camera is in the spec while its box is ticked", {}, async (page) =>
   assert.equal(await camera(), undefined);
 });
 
-page_test("the usual entries of a list come into the spec to be changed", {}, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+page_test("the usual entries of a list are added to the spec when they are edited", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/new`);
   await page.locator(`${field("/scene/type")} select`).selectOption("volume");
   const transfer = async () => {
     await page.getByRole("tab", { name: "Spec" }).click();
@@ -150,7 +153,9 @@ page_test("a texture is uploaded from its field and used", { expected_statuses: 
   assert.equal(await choice.inputValue(), "leaf");
   await assert_accessible(page, "a form with a refused upload");
 
-  await texture.locator("input[type=file]").setInputFiles({ name: "a.txt", mimeType: "text/plain", buffer: Buffer.from("a") });
+  await texture
+    .locator("input[type=file]")
+    .setInputFiles({ name: "a.txt", mimeType: "text/plain", buffer: Buffer.from("a") });
   await status.getByText("must end with .png").waitFor();
 
   const name = `${"ö<b>".repeat(60)}.png`;
@@ -174,7 +179,7 @@ page_test("a texture is uploaded from its field and used", { expected_statuses: 
   await page.getByText("The spec is valid.").waitFor();
 });
 
-page_test("a shading of one's own is written in the form", { expected_statuses: [422] }, async (page) => {
+page_test("the user's own shading is written in the form", { expected_statuses: [422] }, async (page) => {
   await fill_form(page, tests.url());
   const shading = page.locator(field("/scene/shading"));
   const choice = shading.locator("select");
@@ -188,7 +193,7 @@ page_test("a shading of one's own is written in the form", { expected_statuses: 
   const body = "return tint * vec4(uv, 1.0, 1.0);";
   await source.fill(body);
   await error.waitFor({ state: "hidden" });
-  await assert_accessible(page, "a form with a shading of one's own");
+  await assert_accessible(page, "a form with the user's own shading");
   await page.getByRole("tab", { name: "Spec" }).click();
   const text = page.getByLabel("Spec as JSON");
   assert.deepEqual(JSON.parse(await text.inputValue()).scene.shading, { glsl: body });

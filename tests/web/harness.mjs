@@ -9,14 +9,13 @@ import { createRequire } from "node:module";
 import { chromium } from "playwright-core";
 
 const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const program = process.env.SHEER;
 const failures = process.env.SHEER_SCREENSHOTS ?? join(tmpdir(), "sheer-web-failures");
 const START_MS = 30_000;
 const WAIT_MS = 15_000;
 
-/** Starts `sheer serve` on a free port; gives {url, folder, stop}. */
-async function start_service() {
-  assert.ok(program, "SHEER must name the program");
+/** Starts `sheer serve` on a free port; returns {url, folder, stop}. */
+async function start_service(program) {
+  assert.ok(program, "SHEER and SHEER_MADE_UP must name the programs");
   const folder = mkdtempSync(join(tmpdir(), "sheer-web-"));
   const child = spawn(program, ["serve", "--listen", "127.0.0.1:0", "--data", join(folder, "data")], {
     stdio: ["ignore", "pipe", "pipe"],
@@ -64,9 +63,9 @@ function start_browser() {
 }
 
 /**
- * Runs `body(page)` on a new page, and holds that nothing went wrong in it: no exception, no message of the console
- * (violations of the content security policy are such), no request to anywhere else. Answers in `expected_statuses`
- * are part of the test. A failure leaves a picture of the page.
+ * Runs `body(page)` on a new page, and asserts that nothing went wrong: no exception, no console message (violations
+ * of the content security policy are messages), no request to another host. Answers in `expected_statuses` are part
+ * of the test. A failure leaves a picture of the page.
  */
 async function with_page(browser, name, options, body) {
   const { expected_statuses = [], origin, ...context_options } = options;
@@ -102,7 +101,7 @@ async function with_page(browser, name, options, body) {
   }
 }
 
-/** Holds that axe finds nothing serious, in light and in dark. */
+/** Asserts that axe finds nothing serious, in light and in dark. */
 export async function assert_accessible(page, what) {
   for (const scheme of ["light", "dark"]) {
     await page.emulateMedia({ colorScheme: scheme });
@@ -118,7 +117,7 @@ export async function assert_accessible(page, what) {
   assert.ok(content <= window, `${what} is ${content} px wide in a window of ${window} px`);
 }
 
-/** Values of a table of results: {label: {path: text of the value}}, and what is shown for them. */
+/** Values of a table of results: {label: {path: text of the value}}, and the text that is shown for them. */
 export function table_values(page, table) {
   return page.$$eval(`table.${table} tbody tr[data-label]`, (rows) =>
     Object.fromEntries(
@@ -152,10 +151,10 @@ export function assert_shown(shown, exact, what) {
   assert.ok(Math.abs(Number(plain) - exact) <= last_digit * 0.5001, `${what}: ${shown} for ${exact}`);
 }
 
-/** A title that would break out of markup put together from strings. */
+/** A title that would break out of markup made of strings. */
 export const HOSTILE = `Quads </script><img src=x onerror="alert(1)"> & “more”`;
 
-/** A small comparison that the tests look at. */
+/** A small comparison for the tests. */
 const SPEC = {
   title: HOSTILE,
   tags: { note: "needle-7" },
@@ -169,9 +168,9 @@ const SPEC = {
 
 export const field = (pointer) => `[data-pointer="${pointer}"]`;
 
-/** Fills the form with a small comparison of a hostile title. */
+/** Fills the form with a small comparison that has a hostile title. */
 export async function fill_form(page, url) {
-  await page.goto(`${url}/#/`);
+  await page.goto(`${url}/#/new`);
   await page.getByRole("button", { name: "Quick look" }).click();
   await page.locator(`${field("/title")} input`).fill(HOSTILE);
   await page.locator(`${field("/scene/count")} input`).fill("24");
@@ -181,7 +180,7 @@ export async function fill_form(page, url) {
 }
 
 /** A service with one finished report, and a browser, for all tests of a file. */
-export function service_tests() {
+export function service_tests(program = process.env.SHEER) {
   let service;
   let browser;
   let report;
@@ -193,7 +192,7 @@ export function service_tests() {
       body: JSON.stringify(spec),
     });
   before(async () => {
-    service = await start_service();
+    service = await start_service(program);
     browser = await start_browser();
     report = await post_report(SPEC, { Prefer: "wait=60" });
     assert.equal(report.status, "done", JSON.stringify(report));

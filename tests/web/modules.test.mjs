@@ -1,4 +1,4 @@
-// The page's modules that need no view, in the browser that runs them.
+// The page's modules that need no view, run in a browser.
 import assert from "node:assert/strict";
 import { service_tests } from "./harness.mjs";
 
@@ -72,9 +72,12 @@ module_test(
 );
 
 module_test(
-  "the best of a column: nearest to no error by the digits shown, and none where there is nothing to choose",
+  "the best of a column: closest to no error by the digits shown, and none if all are equal",
   "columns.js",
-  ({ best_results, DIFFERENCE_COLUMNS, TIMING_COLUMNS, missing_reason }) => {
+  async ({ best_results, difference_columns, missing_reason }) => {
+    const [metrics, columns] = await Promise.all(
+      ["metrics", "columns"].map(async (name) => (await fetch(`/api/v1/${name}`)).json()),
+    );
     const result = (label, median, psnr, min, extra = {}) => ({
       label,
       status: "ok",
@@ -89,7 +92,7 @@ module_test(
       result("bound", 1, null, 0, { metrics: null, metrics_reason: "draws nothing" }),
       result("broken", 0.1, 99, 0, { status: "failed", reason: "out of memory" }),
     ];
-    const column = (path) => [...DIFFERENCE_COLUMNS, ...TIMING_COLUMNS].find((one) => one.path === path);
+    const column = (path) => [...difference_columns(metrics), ...columns].find((one) => one.path === path);
     const best = (path, of = results) => [...best_results(of, column(path))].map((one) => one.label);
     return [
       best("timing.median"),
@@ -117,9 +120,63 @@ module_test(
 );
 
 module_test(
-  "fastest is only what is resolved, and no slower by the digits shown than what is not",
+  "a metric's column comes from its description",
   "columns.js",
-  ({ fastest_labels, fastest_results, SPEEDUP_COLUMN, TIMING_COLUMNS }) => {
+  ({ difference_columns }) => {
+    const field = { kind: "number", unit: "", range: "-1..1", summary: "How odd", null_is_identical: false };
+    const column = { head: "Odd", better: "higher", digits: 4, note: null };
+    const metrics = [
+      { id: "odd", name: "Oddness", fields: [{ ...field, name: "", full_name: "odd", column }] },
+      {
+        id: "made_up",
+        name: "Made up",
+        fields: [
+          { ...field, name: "hidden", full_name: "made_up.hidden", column: null },
+          {
+            ...field,
+            ...{ name: "count", full_name: "made_up.count", kind: "count", unit: "px", null_is_identical: true },
+            column: { head: "Made", better: "nearer zero", digits: 3, note: "hidden" },
+          },
+        ],
+      },
+    ];
+    return difference_columns(metrics).map(({ better, ...rest }) => ({ ...rest, better: [-3, 2].map(better) }));
+  },
+  [
+    {
+      path: "metrics.odd",
+      name: "odd",
+      head: "Odd",
+      unit: "−1..1",
+      title: "Oddness: How odd",
+      digits: 4,
+      whole: false,
+      pixel: false,
+      null_is_perfect: false,
+      note: null,
+      better: [3, -2],
+    },
+    {
+      path: "metrics.made_up.count",
+      name: "made_up.count",
+      head: "Made",
+      unit: "px",
+      title: "Made up: How odd",
+      digits: 3,
+      whole: true,
+      pixel: false,
+      null_is_perfect: true,
+      note: "metrics.made_up.hidden",
+      better: [3, 2],
+    },
+  ],
+);
+
+module_test(
+  "only resolved methods are fastest, and only if no unresolved one is faster by the digits shown",
+  "columns.js",
+  async ({ columns_of, fastest_labels, fastest_results }) => {
+    const columns = await (await fetch("/api/v1/columns")).json();
     const result = (label, median, verdict, metrics = {}) => ({
       label,
       status: "ok",
@@ -130,7 +187,7 @@ module_test(
     const base = result("base", 100, "not resolved");
     const labels = (results, frontier = null) => [...fastest_labels({ results, frontier })];
     const run = { results: [base, result("named", 1, "faster")], frontier: { fastest: ["named"] } };
-    const column = (path) => TIMING_COLUMNS.find((one) => one.path === path);
+    const column = (path) => columns_of(columns, "times").find((one) => one.path === path);
     const marks = (one) => [...fastest_results(run, one)].map(({ label }) => label);
     return [
       labels([base, result("quick", 50, "faster"), result("slow", 200, "slower")]),
@@ -142,14 +199,14 @@ module_test(
       labels([base, result("quick", 50, "faster")], { fastest: [] }),
       marks(column("timing.median")),
       marks(column("timing.min")),
-      marks(SPEEDUP_COLUMN),
+      marks(columns_of(columns, "speedups")[0]),
     ];
   },
   [["quick"], [], [], ["a", "b"], ["quick"], [], [], ["named"], [], ["named"]],
 );
 
 module_test(
-  "pictures stay on whole screen pixels while they are zoomed about a point",
+  "pictures stay on whole screen pixels while they are zoomed at a point",
   "viewport.js",
   ({ Viewport }) => {
     const pane = { width: 301, height: 201 };

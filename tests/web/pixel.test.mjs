@@ -1,4 +1,4 @@
-// A pixel of a report's pictures, taken apart by a click or by the keyboard.
+// The explanation of a pixel of a report's pictures, chosen by a click or the keyboard.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -14,7 +14,7 @@ async function open(page) {
   await page.locator(pane).first().waitFor();
 }
 
-/** A pixel of more than two fragments, as the service tells it. */
+/** A pixel with more than two fragments, as described by the service. */
 async function crowded_pixel() {
   for (let x = 5; x < 96; x += 10) {
     const pixel = await api(`/reports/${report_id()}/pixel?x=${x}&y=${x % 64}`);
@@ -50,7 +50,7 @@ page_test("a click on a picture shows the fragments under it and the methods' va
     labels,
     expected.methods.map((method) => method.label),
   );
-  // Each method tells how it came to its value, in as many sentences as the service has of it.
+  // Each method explains its value in as many sentences as the service gives.
   const explained = await page.$$eval(".pixel-explained [data-label]", (sections) =>
     sections.map((section) => [section.dataset.label, section.querySelectorAll("dl > div").length]),
   );
@@ -68,7 +68,7 @@ page_test("a click on a picture shows the fragments under it and the methods' va
   assert.equal(await page.locator(".pixel-view").isVisible(), false);
 });
 
-page_test("Enter takes the marked pixel apart, Escape closes it and goes back", {}, async (page) => {
+page_test("Enter explains the marked pixel, Escape closes the explanation and goes back", {}, async (page) => {
   await open(page);
   const first = page.locator(pane).first();
   await first.focus();
@@ -82,7 +82,7 @@ page_test("Enter takes the marked pixel apart, Escape closes it and goes back", 
   assert.ok(await first.evaluate((node) => node === document.activeElement));
 });
 
-page_test("a drag and a double click take nothing apart", {}, async (page) => {
+page_test("a drag and a double click choose no pixel", {}, async (page) => {
   await open(page);
   const asked = [];
   page.on("request", (request) => request.url().includes("/pixel?") && asked.push(request.url()));
@@ -97,7 +97,7 @@ page_test("a drag and a double click take nothing apart", {}, async (page) => {
   assert.deepEqual(asked, []);
 });
 
-page_test("a pixel that cannot be had says why", { expected_statuses: [503] }, async (page) => {
+page_test("a pixel that cannot be explained says why", { expected_statuses: [503] }, async (page) => {
   await page.route("**/pixel?*", (route) =>
     route.fulfill({
       status: 503,

@@ -1,4 +1,4 @@
-// The form, the schema and the service agree on what each field may hold.
+// The form, the schema and the service agree on the allowed values of each field.
 import assert from "node:assert/strict";
 import { field, service_tests } from "./harness.mjs";
 
@@ -46,7 +46,7 @@ function probes(schema) {
   const near = bounds
     .filter((bound) => typeof bound === "number")
     .flatMap((bound) => {
-      // A browser takes what is very near to a whole number for one.
+      // A browser takes numbers very close to a whole number as whole.
       const step = is_whole(schema) ? 1 / 8 : Math.max(Math.abs(bound), 1) * 1e-9;
       return [bound, bound - step, bound + step, bound - 1, bound + 1];
     });
@@ -85,7 +85,7 @@ const put_spec = async (page, spec) => {
 };
 const spec_of = async (page) => JSON.parse(await page.getByLabel("Spec as JSON").inputValue());
 
-/** Opens every part of the form that may be left out, lists and objects, until there is nothing more to open. */
+/** Opens every optional part of the form, lists and objects, until there is nothing more to open. */
 async function open_everything(page) {
   const closed = page.locator(".kind-object .ticked input:not(:checked)");
   while ((await closed.count()) > 0) await closed.first().check();
@@ -122,7 +122,7 @@ async function check_numbers(page, root, of_interest) {
     const what = (index) => `${input.pointer} ${input.index ?? ""} at ${values[index]}`;
     const shown = await validities(page, input, values);
     shown.forEach((valid, index) => assert.equal(valid, expected[index], `the form, ${what(index)}`));
-    // The service is asked about single numbers, of lists in the first entry: later ones may have to be greater.
+    // The service is asked about single numbers, in lists only in the first entry: later ones may have to be greater.
     if (input.index !== null || /\/[1-9]\d*\/\w+$/.test(input.pointer.replace(/^\/methods\/\d+/, ""))) continue;
     for (const [index, value] of values.entries())
       assert.equal(await service_refuses(spec, input.pointer, value), !expected[index], `the service, ${what(index)}`);
@@ -130,7 +130,7 @@ async function check_numbers(page, root, of_interest) {
   return inputs.map(({ pointer }) => pointer);
 }
 
-/** Every number that a schema has, as pointers; lists by their first entry. */
+/** Every number in a schema, as pointers; lists by their first entry. */
 function numbers_in(schema, pointer) {
   if (schema.type?.includes?.("number") || schema.type?.includes?.("integer")) return [pointer];
   if (schema.type?.includes("array"))
@@ -142,7 +142,7 @@ page_test(
   "every number of image and timing has the range of the schema",
   { expected_statuses: [422] },
   async (page) => {
-    await page.goto(`${tests.url()}/#/`);
+    await page.goto(`${tests.url()}/#/new`);
     await put_spec(page, { image: {}, timing: {}, scene: { type: "quads" }, methods: ["b2f"] });
     const root = await spec_schema();
     const seen = await check_numbers(page, root, (pointer) => /^\/(image|timing)\//.test(pointer));
@@ -157,10 +157,10 @@ page_test(
 );
 
 page_test(
-  "every number of every scene is there and has the range of the schema",
+  "every number of every scene is in the form and has the range of the schema",
   { expected_statuses: [422] },
   async (page) => {
-    await page.goto(`${tests.url()}/#/`);
+    await page.goto(`${tests.url()}/#/new`);
     const root = await spec_schema();
     for (const { id, name } of await api("/scenes")) {
       await put_spec(page, { scene: { type: id === "quads" ? "layers" : "quads" }, methods: ["b2f"] });
@@ -174,7 +174,7 @@ page_test(
 );
 
 page_test("every number of every method has the range of the schema", { expected_statuses: [422] }, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   const root = await spec_schema();
   const methods = await api("/methods");
   await put_spec(page, { scene: { type: "quads" }, methods: methods.map(({ id }) => ({ id })) });
@@ -186,7 +186,7 @@ page_test("every number of every method has the range of the schema", { expected
 });
 
 page_test("a check offers the metrics of the schema", {}, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   await page.getByRole("button", { name: "+ Add a check" }).click();
   const root = await spec_schema();
   const place = page.locator(`${field("/checks/0/metric")}, ${field("/checks/1/metric")}`).last();
@@ -196,10 +196,10 @@ page_test("a check offers the metrics of the schema", {}, async (page) => {
 });
 
 page_test(
-  "a sweep says the range of its values, and may have as many axes as the schema",
+  "a sweep shows the range of its values, and may have as many axes as the schema allows",
   { expected_statuses: [422] },
   async (page) => {
-    await page.goto(`${tests.url()}/#/`);
+    await page.goto(`${tests.url()}/#/new`);
     await put_spec(page, { scene: { type: "quads" }, methods: ["b2f", "f2bd"] });
     const root = await spec_schema();
     const add = page.getByRole("button", { name: "+ Add a sweep" });
@@ -227,14 +227,18 @@ page_test(
   },
 );
 
-page_test("what is no number is refused, never taken for the default", { expected_statuses: [422] }, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
-  await put_spec(page, { scene: { type: "quads", count: 8 }, methods: ["b2f"] });
-  const input = page.locator(`${field("/scene/count")} input`);
-  await input.fill("");
-  await page.getByText("The spec is valid.").waitFor();
-  assert.equal(await input.getAttribute("placeholder"), "1024", "an empty field shows what it stands for");
-  assert.equal((await spec_of(page)).scene.count, undefined);
-  await input.pressSequentially("1e");
-  await page.locator(`${field("/scene/count")} > .error-text:not([hidden])`).waitFor();
-});
+page_test(
+  "input that is not a number is refused, never taken as the default",
+  { expected_statuses: [422] },
+  async (page) => {
+    await page.goto(`${tests.url()}/#/new`);
+    await put_spec(page, { scene: { type: "quads", count: 8 }, methods: ["b2f"] });
+    const input = page.locator(`${field("/scene/count")} input`);
+    await input.fill("");
+    await page.getByText("The spec is valid.").waitFor();
+    assert.equal(await input.getAttribute("placeholder"), "1024", "an empty field shows its default");
+    assert.equal((await spec_of(page)).scene.count, undefined);
+    await input.pressSequentially("1e");
+    await page.locator(`${field("/scene/count")} > .error-text:not([hidden])`).waitFor();
+  },
+);

@@ -1,4 +1,4 @@
-// What stays and what goes when a ready spec becomes another one, and what another scene brings with it.
+// What stays and what goes when a ready-made spec becomes a different one, and what another scene brings with it.
 import assert from "node:assert/strict";
 import { assert_accessible, field, service_tests } from "./harness.mjs";
 
@@ -9,10 +9,10 @@ const spec_of = async (page) => JSON.parse(await page.getByLabel("Spec as JSON")
 const choose_scene = (page, type) => page.locator(`${field("/scene/type")} select`).selectOption(type);
 const valid = (page) => page.getByText("The spec is valid.").waitFor();
 
-/** The ready spec of an id, chosen on the page. */
+/** Chooses the ready-made spec with this id on the page. */
 async function start_from(page, id) {
   const { spec } = (await api("/specs/examples")).find((one) => one.id === id);
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   await page.locator(".presets button", { hasText: spec.title }).click();
   assert.equal((await spec_of(page)).title, spec.title);
   return spec;
@@ -20,7 +20,7 @@ async function start_from(page, id) {
 
 page_test("another scene type has its own shading, texture and camera", { expected_statuses: [422] }, async (page) => {
   const scenes = await api("/scenes");
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   const foreign = {
     type: "quads",
     shading: "4-textures-math",
@@ -48,7 +48,8 @@ page_test("another scene type has its own shading, texture and camera", { expect
   }
 });
 
-page_test("a scene that was left comes back as it was", {}, async (page) => {
+page_test("a scene that was left is restored when it is chosen again", {}, async (page) => {
+  page.on("dialog", (dialog) => dialog.accept()); // edits may be replaced
   await start_from(page, "foliage");
   const before = (await spec_of(page)).scene;
   await page.locator(`${field("/scene/trees")} input`).fill("2");
@@ -56,17 +57,21 @@ page_test("a scene that was left comes back as it was", {}, async (page) => {
   assert.deepEqual((await spec_of(page)).scene, { type: "particles" });
   await choose_scene(page, "foliage");
   assert.deepEqual((await spec_of(page)).scene, { ...before, trees: 2 });
-  // A spec that is begun anew knows nothing of the one before.
+  // A newly started spec has nothing of the previous one.
   await start_from(page, "quick");
   await choose_scene(page, "foliage");
   assert.deepEqual((await spec_of(page)).scene, { type: "foliage" });
 });
 
-page_test("title and checks of a ready spec go with it, and can be put back", {}, async (page) => {
+page_test("title and checks of a ready-made spec are removed with it, and can be restored", {}, async (page) => {
   const ready = await start_from(page, "volume");
   assert.ok(ready.checks.length > 0);
   await page.locator(`${field("/timing/rounds")} input`).fill("9");
-  assert.deepEqual((await spec_of(page)).checks, ready.checks, "how long it is timed does not make it another one");
+  assert.deepEqual(
+    (await spec_of(page)).checks,
+    ready.checks,
+    "the time limit does not make it a different comparison",
+  );
   await choose_scene(page, "quads");
   const changed = await spec_of(page);
   assert.equal(changed.title, undefined);
@@ -75,14 +80,14 @@ page_test("title and checks of a ready spec go with it, and can be put back", {}
   assert.equal(await page.locator(".check-row").count(), 0);
   const note = page.locator(".left-note");
   assert.ok((await note.textContent()).includes(ready.title));
-  await assert_accessible(page, "a form that was another spec");
+  await assert_accessible(page, "a form that had a ready-made spec");
   await note.getByRole("button", { name: "Put back" }).click();
   const back = await spec_of(page);
   assert.deepEqual([back.title, back.checks], [ready.title, ready.checks]);
   assert.equal(await page.locator(`${field("/title")} input`).inputValue(), ready.title);
   assert.equal(await note.count(), 0);
   await choose_scene(page, "layers");
-  assert.equal((await spec_of(page)).title, ready.title, "what was put back is the user's own");
+  assert.equal((await spec_of(page)).title, ready.title, "what was restored is the user's own");
 });
 
 page_test("the user's own title and checks stay", {}, async (page) => {
@@ -100,7 +105,7 @@ page_test("the user's own title and checks stay", {}, async (page) => {
   await valid(page);
 });
 
-page_test("a limit of a ready check that was changed is the user's own", {}, async (page) => {
+page_test("a changed limit of a ready-made check is the user's own", {}, async (page) => {
   await start_from(page, "volume");
   await page.locator(`${field("/checks/0/max")} input`).fill("0.5");
   await page.locator(`${field("/scene/slices")} input`).fill("64");
@@ -112,7 +117,8 @@ page_test("a limit of a ready check that was changed is the user's own", {}, asy
   );
 });
 
-page_test("a ready spec is remembered over a reload and through a report", {}, async (page) => {
+page_test("a ready-made spec is remembered after a reload and through a report", {}, async (page) => {
+  page.on("dialog", (dialog) => dialog.accept()); // edits may be replaced
   const ready = await start_from(page, "layers");
   await page.reload();
   assert.equal(await page.locator(`${field("/title")} input`).inputValue(), ready.title);
@@ -128,14 +134,14 @@ page_test("a ready spec is remembered over a reload and through a report", {}, a
   const report = await post_report(spec, { Prefer: "wait=60" });
   assert.equal(report.status, "done", JSON.stringify(report));
   await page.goto(`${tests.url()}/#/reports/${report.id}`);
-  await page.getByRole("button", { name: "Use this spec again" }).click();
+  await page.getByRole("button", { name: "Edit and run" }).click();
   assert.equal(await page.locator(`${field("/title")} input`).inputValue(), ready.title);
   await choose_scene(page, "quads");
   assert.equal((await spec_of(page)).title, undefined);
 });
 
-page_test("a published table that becomes another scene loses its figures", {}, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+page_test("a published table loses its figures if the scene is changed", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/new`);
   await page.getByRole("button", { name: "Fill in" }).click();
   assert.equal(await page.locator(".suite-note").count(), 1);
   await choose_scene(page, "foliage");

@@ -1,4 +1,4 @@
-// From a submitted form to the report, on the page and as a file, against a real service.
+// From a submitted form to the report, on the page and as a file, with a real service.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -18,7 +18,7 @@ page_test("a comparison is submitted, followed and shown", {}, async (page) => {
   const report = await api(`/reports/${new URL(page.url()).hash.split("/").pop()}`);
   assert.equal(report.status, "done");
   assert.equal(await page.locator("h1").textContent(), HOSTILE);
-  assert.equal(await page.locator(".notice.warning").count(), report.device.software ? 1 : 0);
+  assert.equal(await page.getByText("Software rasteriser").count(), report.device.software ? 1 : 0);
   await assert_accessible(page, "the report");
 });
 
@@ -79,10 +79,12 @@ page_test("the tables show the numbers of the report", {}, async (page) => {
 
 const loaded = (page) =>
   page.waitForFunction(() =>
-    [...document.querySelectorAll(".picture img")].every((image) => image.complete && image.naturalWidth > 0),
+    [...document.querySelectorAll(".picture > *")].every(
+      (node) => node.dataset.painted || (node.complete && node.naturalWidth > 0),
+    ),
   );
 
-/** Red, green, blue of a pixel of the screen, from a picture of it. */
+/** Red, green and blue of a pixel of the screen, from a screenshot. */
 async function screen_pixel(page, x, y) {
   const png = (await page.screenshot({ clip: { x, y, width: 1, height: 1 } })).toString("base64");
   return page.evaluate(async (data) => {
@@ -103,18 +105,23 @@ page_test("pictures are shown pixel for pixel, side by side and with a slider", 
   const report = await api(`/reports/${tests.report_id()}`);
   assert.equal(await page.locator("figure.pane").count(), 1 + report.runs[0].results.length);
   for (const kind of ["difference", "flip"]) {
-    await page.locator(`[data-value=${kind}]`).click();
+    await page.getByRole("group", { name: "Kind of picture" }).locator(`[data-value=${kind}]`).click();
     await loaded(page);
   }
+  await page.getByRole("group", { name: "Kind of picture" }).locator("[data-value=color]").click();
   await page.locator("[data-value=slider]").click();
   await page.getByLabel("Left picture").selectOption({ label: "Reference" });
-  await page.getByLabel("Right picture").selectOption({ label: "b2f · Difference" });
+  await page.getByLabel("Right picture").selectOption({ label: "unsorted" });
   await loaded(page);
   const view = page.locator(".pane-view");
   await view.scrollIntoViewIfNeeded();
-  const box = await view.boundingBox();
-  const spot = [Math.floor(box.x + box.width * 0.6), Math.floor(box.y + box.height * 0.25)];
-  const divider = page.getByRole("slider");
+  const box = await page.locator(".picture img").first().boundingBox();
+  const worst = report.runs[0].results.find(({ label }) => label === "unsorted").metrics.worst_pixel;
+  const spot = [
+    Math.floor(box.x + ((worst[0] + 0.5) / 96) * box.width),
+    Math.floor(box.y + ((worst[1] + 0.5) / 64) * box.height),
+  ];
+  const divider = page.getByRole("slider", { name: "Line between the two pictures" });
   const read = async (position) => {
     await divider.focus();
     await divider.press(position);
@@ -125,6 +132,7 @@ page_test("pictures are shown pixel for pixel, side by side and with a slider", 
   const right = await read("Home");
   assert.notDeepEqual(left, right, "the line moves over the spot");
   await page.mouse.move(spot[0] + 0.5, spot[1] + 0.5);
+  await page.locator(".pane-value .value").nth(1).waitFor();
   const values = await page.locator(".pane-value .value").allTextContents();
   assert.deepEqual(values, [left.join(" "), right.join(" ")], "the values under the mouse are those on the screen");
   await page.locator(".pane-view").focus();
@@ -139,7 +147,7 @@ page_test("pictures are shown pixel for pixel, side by side and with a slider", 
   await assert_accessible(page, "the slider");
 });
 
-page_test("the worst pixel can be looked at in every pane", {}, async (page) => {
+page_test("the worst pixel can be shown in every pane", {}, async (page) => {
   await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
   const result = (await api(`/reports/${tests.report_id()}`)).runs[0].results.find((one) => one.metrics?.worst_pixel);
   const [x, y] = result.metrics.worst_pixel;
@@ -184,19 +192,55 @@ for (const place of ["served", "opened from a file"]) {
     assert.deepEqual(await table_values(page, "timings"), expected.timings);
     assert.deepEqual(await table_values(page, "differences"), expected.differences);
     const { device, provenance } = await api(`/reports/${tests.report_id()}`);
-    await page.getByText("Device and origin").click();
-    const origin = await page.locator(".details-row dl").textContent();
+    await page.getByText("Details", { exact: true }).click();
+    const origin = (await page.locator(".details-row dl").allTextContents()).join(" ");
     const governor = provenance.governor ?? provenance.governor_reason;
     for (const fact of [device.driver, device.cpu, governor, provenance.commit, provenance.rerun])
       assert.ok(origin.includes(fact), fact);
     assert.match(origin, /at the start, .* at the end/);
-    assert.match(origin, /none is converted to linear light/);
+    assert.match(origin, /without conversion to linear light/);
     assert.equal(await page.locator("h1").textContent(), HOSTILE);
     await loaded(page);
     await page.locator("figure.pane .pane-view").first().hover();
     assert.match(await page.locator(".pane-value .value").first().textContent(), /^\d+ \d+ \d+$/);
   });
 }
+
+const without_scripts = { origin: undefined, javaScriptEnabled: false };
+page_test("the self-contained report is readable without scripts", without_scripts, async (page) => {
+  const file = join(tests.folder(), "plain.html");
+  const address = `${tests.url()}/api/v1/reports/${tests.report_id()}/report.html`;
+  writeFileSync(file, await (await fetch(address)).text());
+  await page.goto(`file://${file}`);
+  const { results } = (await api(`/reports/${tests.report_id()}`)).runs[0];
+  assert.equal(await page.getByRole("heading", { level: 1 }).textContent(), HOSTILE);
+  const table = await page.locator("pre").textContent();
+  for (const { label, fragments } of results) {
+    assert.ok(table.includes(label), label);
+    assert.ok(table.includes(String(fragments.shaded)), label);
+  }
+  assert.deepEqual(await page.locator("figcaption").allTextContents(), [
+    "Reference",
+    ...results.map(({ label }) => label),
+  ]);
+  for (const image of await page.locator("figure img").all()) assert.equal((await image.boundingBox()).width, 96);
+});
+
+page_test("a printed report shows every picture and whole tables", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
+  await loaded(page);
+  await page.setViewportSize({ width: 740, height: 1000 }); // about A4 without margins
+  await page.emulateMedia({ media: "print" });
+  assert.equal(await page.locator(".toolbar").isVisible(), false);
+  const panes = page.locator("figure.pane img");
+  for (const image of await panes.all()) assert.ok((await image.boundingBox()).width > 90);
+  const cut = await page.$$eval(".table-box", (boxes) =>
+    boxes
+      .filter((box) => box.offsetParent && box.scrollWidth > document.documentElement.clientWidth)
+      .map((box) => box.ariaLabel),
+  );
+  assert.deepEqual(cut, []);
+});
 
 page_test("a running comparison can be cancelled", {}, async (page) => {
   const spec = {
@@ -215,7 +259,7 @@ page_test("a running comparison can be cancelled", {}, async (page) => {
 });
 
 page_test("every view fits a narrow window", { viewport: { width: 400, height: 800 } }, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   await page.getByRole("button", { name: "Layers by hand" }).click();
   await page.getByText("The spec is valid.").waitFor();
   await assert_accessible(page, "the narrow form");

@@ -1,4 +1,4 @@
-// Sweeps, the frontier and repeated tables: from the form to the report, against a real service.
+// Sweeps, the frontier and repeated tables: from the form to the report, with a real service.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -25,7 +25,7 @@ const json_of = async (page) => {
   return spec;
 };
 
-/** A chart is painted once it has a width, which is a moment after it is on the page. */
+/** A chart is drawn once it has a width, shortly after it is added to the page. */
 async function assert_lines(charts, count) {
   const lines = charts.locator("path.line");
   await lines.nth(count - 1).waitFor({ state: "attached" });
@@ -33,7 +33,7 @@ async function assert_lines(charts, count) {
 }
 
 page_test("a sweep is written in the form, run and shown", {}, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+  await page.goto(`${tests.url()}/#/new`);
   await page.getByRole("tab", { name: "Spec" }).click();
   const { sweep, ...single } = SPEC;
   await page.getByLabel("Spec as JSON").fill(JSON.stringify(single));
@@ -56,6 +56,7 @@ page_test("a sweep is written in the form, run and shown", {}, async (page) => {
   assert.deepEqual(await point.locator("option").allTextContents(), ["count 4", "count 64"]);
   const submitted = () =>
     page.locator("table.fragments [data-path='fragments.submitted']").first().getAttribute("data-value");
+  await point.selectOption({ label: "count 4" });
   assert.equal(Number(await submitted()), report.runs[0].results[0].fragments.submitted);
   await point.selectOption({ label: "count 64" });
   assert.equal(Number(await submitted()), report.runs[1].results[0].fragments.submitted);
@@ -63,7 +64,7 @@ page_test("a sweep is written in the form, run and shown", {}, async (page) => {
   const speedup = page.locator("figure.chart", { hasText: "Speed-up" });
   await speedup.locator(".plot").focus();
   for (const key of ["ArrowRight", "ArrowLeft", "Enter"]) await page.keyboard.press(key);
-  assert.equal(await point.inputValue(), "0", "Enter looks at the point");
+  assert.equal(await point.inputValue(), "0", "Enter shows the point");
   await assert_lines(speedup, SPEC.methods.length);
 
   await page.getByText("Values as a table").click();
@@ -79,10 +80,10 @@ page_test("a sweep is written in the form, run and shown", {}, async (page) => {
   await assert_accessible(page, "a report of a sweep");
 });
 
-page_test("the chart draws the report's values where they belong", { origin: undefined }, async (page) => {
+page_test("the chart draws the report's values at the right places", { origin: undefined }, async (page) => {
   const report = await post_report(SPEC, { Prefer: "wait=60" });
   assert.equal(report.status, "done", JSON.stringify(report));
-  await page.goto(`${tests.url()}/#/reports/${report.id}`);
+  await page.goto(`${tests.url()}/#/reports/${report.id}?run=0`);
   await page.getByLabel("Metric of the chart").selectOption("fragments.submitted");
   const chart = page.locator("figure.chart", { has: page.getByLabel("Metric of the chart") });
   await chart.locator("path.marker").first().waitFor();
@@ -110,7 +111,7 @@ page_test("the chart draws the report's values where they belong", { origin: und
   assert.ok(drawn.marks[0][0] < drawn.marks[1][0], "more quads lie further right");
 
   const { frontier } = report.runs[0];
-  const section = page.getByRole("region", { name: "Speed against error" });
+  const section = page.getByRole("region", { name: "Speed versus error" });
   await section.locator("path.marker").first().waitFor();
   assert.deepEqual(await section.locator("li").allTextContents(), frontier.sentences);
   const grey = await section.locator("text.name.grey").allTextContents();
@@ -124,8 +125,8 @@ page_test("the chart draws the report's values where they belong", { origin: und
   await assert_lines(page.locator("figure.chart"), 3 * SPEC.methods.length);
 });
 
-page_test("what is wrong in a sweep is said at its field", { expected_statuses: [422] }, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+page_test("errors in a sweep are shown at their fields", { expected_statuses: [422] }, async (page) => {
+  await page.goto(`${tests.url()}/#/new`);
   await page.getByRole("tab", { name: "Spec" }).click();
   const sweep = [
     { pointer: "/scene/nothing", values: [1] },
@@ -147,8 +148,8 @@ page_test("what is wrong in a sweep is said at its field", { expected_statuses: 
   assert.equal((await json_of(page)).sweep, undefined);
 });
 
-page_test("a published table is repeated beside its figures", {}, async (page) => {
-  await page.goto(`${tests.url()}/#/`);
+page_test("a published table is repeated and shown beside the published figures", {}, async (page) => {
+  await page.goto(`${tests.url()}/#/new`);
   const chooser = page.getByRole("group", { name: "Repeat a published table" });
   await chooser.getByLabel("Repeat a published table").selectOption("paper-table-4");
   await chooser.getByLabel("Image").selectOption("0.125");

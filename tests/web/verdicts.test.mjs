@@ -1,4 +1,4 @@
-// What a report says beside its numbers: notes, reasons, verdicts, and the files that it drew from.
+// What a report says besides its numbers: notes, reasons, verdicts, and the files that it used.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -22,7 +22,7 @@ async function finished(spec) {
 }
 
 async function open_report(page, report) {
-  await page.goto("about:blank"); // else the report before is there until the new one has come
+  await page.goto("about:blank"); // otherwise the previous report stays until the new one has loaded
   await page.goto(`${tests.url()}/#/reports/${report.id}`);
   await page.locator("article.report").waitFor();
 }
@@ -36,7 +36,7 @@ async function open_file(page, report) {
   await page.locator("article.report").waitFor();
 }
 
-/** A picture with a row more than its header says, which is noted when it is read. */
+/** A picture with one row more than its header says, which becomes a note when it is read. */
 const NOTED = png(2, 2, 2, Array(3).fill(Buffer.from([9, 8, 7, 6, 5, 4])));
 
 async function upload(bytes, name) {
@@ -49,7 +49,7 @@ async function upload(bytes, name) {
   return answer.json();
 }
 
-page_test("notes stand near the head, on the page and in the file", { origin: undefined }, async (page) => {
+page_test("notes are shown near the top, on the page and in the file", { origin: undefined }, async (page) => {
   const { sha256 } = await upload(NOTED, "noted.png");
   const scene = { ...FOLIAGE.scene, texture: { image: sha256, size: 16 } };
   const report = await finished({ ...FOLIAGE, scene, methods: ["b2f"], timing: { rounds: 1 } });
@@ -72,7 +72,7 @@ page_test("notes stand near the head, on the page and in the file", { origin: un
   };
   await open_report(page, report);
   await look();
-  await page.locator("summary", { hasText: "1 file" }).click();
+  await page.getByText("Details", { exact: true }).click();
   const file = await page.getByRole("list", { name: "Files" }).textContent();
   assert.ok(file.includes(createHash("sha256").update(NOTED).digest("hex")), file);
   await assert_accessible(page, "a report with notes");
@@ -80,7 +80,7 @@ page_test("notes stand near the head, on the page and in the file", { origin: un
   await look();
 });
 
-page_test("a report without notes has no place for them", {}, async (page) => {
+page_test("a report without notes has no section for them", {}, async (page) => {
   await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
   await page.locator("article.report").waitFor();
   assert.deepEqual((await api(`/reports/${tests.report_id()}`)).notes, []);
@@ -109,9 +109,9 @@ const marked = (page) =>
     cells.map((cell) => ({ label: cell.closest("tr").dataset.label, path: cell.dataset.path })),
   );
 
-/** Labels of the methods whose names are bold in the chart of speed against error. */
+/** Labels of the methods whose names are bold in the chart of speed versus error. */
 async function bold_names(page) {
-  const chart = page.getByRole("region", { name: "Speed against error" });
+  const chart = page.getByRole("region", { name: "Speed versus error" });
   await chart.locator("path.marker").first().waitFor();
   return chart
     .locator("text.name")
@@ -120,7 +120,7 @@ async function bold_names(page) {
     );
 }
 
-page_test("no time is marked that is not resolved", {}, async (page) => {
+page_test("no unresolved time is marked", {}, async (page) => {
   const methods = ["b2f", "f2b", { id: "b2f", label: "the same" }, { id: "f2bd", threshold: 0.5 }, "unsorted"];
   const scene = { type: "quads", count: 64, shading: "4-textures", texture: { size: 64 } };
   for (const rounds of [1, 3, 12]) {
@@ -148,7 +148,7 @@ page_test("no time is marked that is not resolved", {}, async (page) => {
   }
 });
 
-page_test("equal values of a column are marked alike", {}, async (page) => {
+page_test("equal values of a column are all marked", {}, async (page) => {
   await page.goto(`${tests.url()}/#/reports/${tests.report_id()}`);
   await page.locator("article.report").waitFor();
   const columns = await page.$$eval("table.differences td[data-path]", (cells) => {
@@ -172,7 +172,7 @@ page_test("equal values of a column are marked alike", {}, async (page) => {
 });
 
 page_test(
-  "what a comparison finished before its end is shown with how it ended",
+  "the finished parts of an interrupted comparison are shown, and how it ended",
   { origin: undefined },
   async (page) => {
     const folder = mkdtempSync(join(tests.folder(), "early-"));
@@ -195,7 +195,7 @@ page_test(
     assert.equal(await page.locator(".title-line .verdict").textContent(), "Failed", "its checks passed");
     assert.ok((await page.getByRole("alert").textContent()).includes(report.error.detail));
     assert.match(await page.getByRole("region", { name: "Notes" }).textContent(), /Only 1 of 2 points/);
-    assert.match(await page.locator(".report-head").textContent(), /Point.*a\.png/);
+    assert.match(await page.locator(".report-head").textContent(), /a\.png/);
     assert.equal(await page.locator("figure.pane").count(), 3);
     await assert_accessible(page, "a report that is not whole");
   },

@@ -1,10 +1,10 @@
-// Trees whose crowns are planes of leaves, turned at random and cut by each other. Sorting takes a plane as a whole, so
-// where planes intersect no order of drawing is right: that error is what this scene shows.
+// Trees whose crowns are planes of leaves, turned at random and intersecting each other. Sorting treats a plane as a
+// whole, so where planes intersect no drawing order is right: that error is what this scene shows.
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/random.h"
 #include "renderer/scene/camera.h"
-#include "renderer/scene/random.h"
 #include "renderer/scene/scene_info.h"
 #include "renderer/scene/solids.h"
 
@@ -24,7 +24,7 @@ struct Tree {
     dvec3 tone;
 };
 
-/// Trees keep apart where there is room; `spread` grows with their number.
+/// Trees keep their distance while there is room; `spread` grows with their number.
 std::vector<Tree> plant(std::size_t count, double spread, Random& random) {
     std::vector<Tree> trees;
     while (trees.size() < count) {
@@ -61,7 +61,7 @@ void add_wood(Geometry& geometry, const Tree& tree, Random& random) {
     }
 }
 
-/// How much light comes to `at` in the crown: little to its inside and its underside.
+/// How much light reaches `at` in the crown: little inside it and on its underside.
 double openness(const Tree& tree, const dvec3& at) {
     const dvec3 from_centre = (at - tree.crown_centre) / tree.crown_radii;
     return std::clamp(0.42 + 0.42 * glm::length(from_centre) * (0.6 + 0.4 * from_centre.y) + 0.22 * from_centre.y, 0.25,
@@ -99,7 +99,7 @@ Shade meadow(const std::vector<Tree>& trees) {
     return [&trees](const dvec3& at, const dvec3& normal) {
         double light = 1;
         for (const Tree& tree : trees) {
-            // The sun stands in the upper left before the scene, so shadows fall to the right and back.
+            // The sun is at the upper left in front of the scene, so shadows fall to the right and back.
             const dvec2 from_shadow = (dvec2(at.x, at.z) - tree.place - dvec2(0.35, -0.4)) / tree.crown_radii.x;
             light *= 1 - 0.55 * std::max(0.0, 1 - glm::dot(from_shadow, from_shadow));
         }
@@ -117,7 +117,7 @@ Geometry build_foliage(const nlohmann::json& scene, const ImageSpec& image, Asse
     Geometry geometry;
     add_ground(geometry, spread + 0.85, 0.10, random, meadow(trees));
     for (const Tree& tree : trees) add_wood(geometry, tree, random);
-    // Fewer planes are larger ones, with as much area in all.
+    // If there are fewer planes, they are larger, so that the total area is the same.
     const double size = 0.30 * std::clamp(std::sqrt(usual_planes / static_cast<double>(planes)), 0.4, 2.5);
     for (const Tree& tree : trees)
         for (std::size_t i = 0; i < planes; ++i) add_plane(geometry, tree, size * tree.height / 2.2, random);
@@ -132,13 +132,13 @@ SceneInfo scene_foliage() {
     return {
         .id = "foliage",
         .name = "Foliage",
-        .summary = "Trees whose leaves are textured planes that cut each other: sorting them cannot be right.",
+        .summary = "Trees whose leaves are textured planes that intersect: no sorting order is right.",
         .source = "Sheer",
         .parameters = {Param::integer("trees", "how many trees", "", 3, 1, 64),
-                       Param::integer("planes_per_tree", "planes of leaves in a crown; more of them are smaller", "",
-                                      300, 1, 5000),
+                       Param::integer("planes_per_tree", "planes of leaves in a crown; the more, the smaller", "", 300,
+                                      1, 5000),
                        Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0), camera_parameter()},
-        .default_shading = "1-texture",
+        .default_shading = shadings::one_texture,
         .check = check_camera,
         .build = build_foliage,
     };

@@ -1,9 +1,9 @@
 // A model from a glTF 2.0 file. Triangles of materials with alphaMode BLEND are transparent, each a primitive of its
-// own, sorted by the depth of its middle; those with OPAQUE and MASK are drawn before, with depth.
+// own, sorted by the depth of its middle; those with OPAQUE and MASK are drawn first, with depth.
 //
-// The methods blend display values, so every factor is one: base colour and vertex colour are linear in the file and
-// have been sRGB-encoded on their own, and the picture is used as it is stored. For a power law the product of encoded
-// factors is the encoded product; sRGB differs from one near black only.
+// The methods blend display values, so every factor is a display value: base color and vertex color are linear in the
+// file and have each been sRGB-encoded, and the picture is used as it is stored. For a power law, the product of
+// encoded factors is the encoded product; sRGB differs from a power law only near black.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -20,10 +20,10 @@ namespace {
 
 using glm::dvec3;
 
-/// What a device may lose where it interpolates equal values, and a product of two alphas in rounding; as fractions.
+/// What may be lost when equal values are interpolated, and when a product of two alphas is rounded; as fractions.
 constexpr float interpolation_slack = 1.0f / 65536, product_slack = 1e-6f;
 
-/// The alpha of all its vertices, if it is one.
+/// The alpha of its vertices, if they all have the same.
 std::optional<float> constant_alpha(const ModelPart& part) {
     const float first = part.vertices.front().color.a;
     const bool same =
@@ -31,11 +31,11 @@ std::optional<float> constant_alpha(const ModelPart& part) {
     return same ? std::optional(first) : std::nullopt;
 }
 
-/// How the alpha of a masked part is compared. What is the same all over the part moves into the cutoff, so that what
-/// is as large as the cutoff is drawn, whatever interpolation makes of it.
+/// How the alpha of a masked part is compared. Factors that are the same all over the part move into the cutoff, so
+/// that an alpha equal to the cutoff is drawn however it is interpolated.
 struct Mask {
-    float cutoff = 0;    ///< of the alpha that is left; over 1 nothing is drawn
-    bool varies = true;  ///< whether the vertices' alpha is left
+    float cutoff = 0;    ///< of the remaining alpha; over 1 nothing is drawn
+    bool varies = true;  ///< whether the vertices' alpha remains
 };
 
 Mask mask_of(const Material& material, const ModelPart& part) {
@@ -71,7 +71,7 @@ class Builder {
         if (mask.cutoff > 1)
             return add_note(
                 m_geometry.notes,
-                {"mask-hides-all", "Masked surfaces whose alpha is under their cutoff everywhere are not drawn.",
+                {"mask-hides-all", "Masked surfaces whose alpha is below their cutoff everywhere are not drawn.",
                  "/scene/model"});
         const auto [known, added] = m_numbers.try_emplace({part.material, mask.cutoff},
                                                           static_cast<std::uint32_t>(m_geometry.materials.size()));
@@ -95,7 +95,7 @@ class Builder {
 
     enum class Side { front, back, hidden };
 
-    /// Which side of the triangle from corner `i` on is seen. One without an area counts as its front.
+    /// Which side of the triangle that starts at corner `i` is seen. For one without an area it is the front.
     Side side_of(const ModelPart& part, std::size_t i) const {
         const auto at = [&](std::size_t corner) { return dvec3(part.vertices[part.indices[i + corner]].position); };
         const dvec3 first = at(0), normal = glm::cross(at(1) - first, at(2) - first);
@@ -103,7 +103,7 @@ class Builder {
         return m_surface.material->double_sided ? Side::back : Side::hidden;
     }
 
-    /// Adds a vertex, lit from the side that is seen.
+    /// Adds a vertex, lit for the side that is seen.
     std::uint32_t add_vertex(const ModelVertex& from, Side side) {
         const Material& material = *m_surface.material;
         glm::vec4 tint = from.color * material.base_color;
@@ -161,7 +161,7 @@ class Builder {
     std::map<std::pair<std::uint32_t, Side>, std::uint32_t> m_vertex_numbers;  ///< by the part's vertex and its side
 };
 
-/// From the model's origin.
+/// Relative to the model's origin.
 Sphere bounds_of(const Model& model) {
     dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
     const auto each = [&](const auto& action) {
@@ -196,14 +196,13 @@ SceneInfo scene_gltf() {
     return {
         .id = "gltf",
         .name = "glTF model",
-        .summary = "A .glb or .gltf file: what blends is sorted by triangle; opaque and masked surfaces hide it.",
+        .summary = "A .glb or .gltf file: blended triangles are sorted; opaque and masked surfaces hide them.",
         .source = "Khronos, glTF 2.0",
-        .parameters = {Param::asset("model", "a glTF 2.0 file, with all that it needs inside", "model", "", {}),
+        .parameters = {Param::asset("model", "a glTF 2.0 file that contains everything it needs", "model", "", {}),
                        Param::choice("light",
-                                     "daylight from the upper left, baked into the colours, or the colours as they are",
+                                     "daylight from the upper left, baked into the colors, or the colors as they are",
                                      "daylight", {"daylight", "none"}),
                        camera_parameter()},
-        .default_shading = "material",
         .own_shading = "material",
         .check = check_camera,
         .build = build_gltf,

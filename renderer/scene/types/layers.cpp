@@ -1,5 +1,5 @@
-// Rectangles parallel to the screen, each with its own depth, colour and alpha: the scene whose answer can be worked
-// out by hand. Layers of equal depth count as nearer the later they are submitted.
+// Rectangles parallel to the screen, each with its own depth, color and alpha: the scene whose picture can be worked
+// out by hand. Of layers with equal depth, the one submitted later counts as nearer.
 #include "renderer/scene/scene_info.h"
 
 namespace sheer {
@@ -33,18 +33,19 @@ SceneInfo scene_layers() {
     return {
         .id = "layers",
         .name = "Layers",
-        .summary = "Rectangles of constant colour and alpha at given depths; the picture can be worked out by hand.",
+        .summary = "Rectangles of constant color and alpha at given depths; the picture can be worked out by hand.",
         .source = "Sheer",
         .parameters = {Param::list(
             "layers", "in submission order",
-            {Param::numbers("rect", "x0, y0, x1, y1, origin top left, y down", "fraction of the image", {0, 0, 1, 1},
-                            -4, 5),
-             depth_parameter(), Param::numbers("color", "red, green, blue", "", {1, 1, 1}, 0, 1),
+            {Param::numbers("rect", "two corners, origin top left, y down", "fraction of the image", {0, 0, 1, 1}, -4,
+                            5)
+                 .of({"x0", "y0", "x1", "y1"}),
+             depth_parameter(), Param::color("color", "of the layer", {1, 1, 1}),
              Param::number("alpha", "opacity", "", 0.5, 0, 1),
              Param::boolean("opaque", "drawn without blending, with depth writes, before the transparent ones", false)},
             1, max_layers)},
         .build = build_layers,
-        .transparent = "layers but opaque ones",
+        .transparent = "layers other than opaque ones",
     };
 }
 

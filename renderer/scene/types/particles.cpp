@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/core/random.h"
 #include "renderer/scene/camera.h"
-#include "renderer/scene/random.h"
 #include "renderer/scene/scene_info.h"
 #include "renderer/scene/solids.h"
 
@@ -28,7 +28,7 @@ struct Sprite {
     glm::vec4 tint;
 };
 
-/// Between -1 and 1 with period 1, from parabolas.
+/// Between -1 and 1 with period 1, made of parabolas.
 double wave(double x) {
     const double phase = x - std::floor(x), half = 2 * phase - (phase < 0.5 ? 0 : 1);
     return (phase < 0.5 ? 4 : -4) * half * (1 - half);
@@ -70,7 +70,7 @@ class Plume {
         return {{place.x, low + (plume_height - low) * age, place.y}, age, 0.10 + 0.22 * age};
     }
 
-    /// Fades as it rises, is lit from the upper left, and over a fire from below.
+    /// Fades as it rises; lit from the upper left, and from below if there is a fire.
     Sprite smoke(const Billow& billow, Random& random) const {
         const dvec3 place = random_in_ball(random);
         const double age = billow.age;
@@ -84,7 +84,7 @@ class Plume {
                 {glm::vec3(color), static_cast<float>(alpha)}};
     }
 
-    /// White-hot at the foot, red at the tips. Colours over 1 because the texture is a grey cloud.
+    /// White-hot at the foot, red at the tips. Colors exceed 1 because the texture is a grey cloud.
     Sprite flame(const Tongue& tongue, Random& random) const {
         const double age = random.unit();
         const dvec2 lean = dvec2(0.07 * wave(1.3 * age + 0.25) * age, 0);
@@ -103,8 +103,8 @@ class Plume {
     std::vector<Tongue> m_tongues;
 };
 
-/// More sprites are smaller and fainter ones, so that a million of them is finer grain rather than a wall: the size
-/// goes by about the cube root, and the product of count, area and alpha stays.
+/// The more sprites there are, the smaller and fainter they are, so that a million of them give a finer grain and not a
+/// wall: the size falls with about the cube root of the count, and the product of count, area and alpha is constant.
 struct Grain {
     double size, alpha;
 };
@@ -200,17 +200,19 @@ SceneInfo scene_particles() {
         .name = "Particles",
         .summary = "Sprites of fire and smoke that face the camera and rise from a fireplace of logs and stones.",
         .source = "Sheer",
-        .parameters = {Param::choice("appearance", "fire that turns to smoke, in the night; or smoke by day", "fire",
-                                     {"fire", "smoke"}),
-                       Param::integer("count", "how many sprites", "", 2000, 1, 1000000),
-                       Param::boolean("fit_count",
-                                      "whether more sprites are smaller and fainter, so that the plume looks the same; "
-                                      "else each is as large and as opaque as one of 2000",
-                                      true),
-                       Param::number("size", "of the sprites, times what is usual", "", 1, 0.1, 4),
-                       Param::number("opacity", "of the sprites, times what is usual", "", 1, 0, 1),
-                       Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0), camera_parameter()},
-        .default_shading = "1-texture",
+        .parameters =
+            {Param::choice("appearance", "fire that turns to smoke, at night; or smoke by day", "fire",
+                           {"fire", "smoke"}),
+             Param::integer("count", "how many sprites", "", 2000, 1, 1000000),
+             Param::boolean(
+                 "fit_count",
+                 "whether sprites get smaller and fainter the more there are, so that the plume looks the same; "
+                 "otherwise each is as large and as opaque as one of 2000",
+                 true),
+             Param::number("size", "of the sprites, relative to the usual size", "", 1, 0.1, 4),
+             Param::number("opacity", "of the sprites, relative to the usual opacity", "", 1, 0, 1),
+             Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0), camera_parameter()},
+        .default_shading = shadings::one_texture,
         .default_texture = "smoke",
         .check = check_camera,
         .build = build_particles,

@@ -1,10 +1,10 @@
 // The scene of the SCCG 2010 paper, section 3: axis-aligned quads parallel to the projection plane, wholly visible, at
-// random positions. Sizes are given there in a window of 512 x 512 pixels; here they scale with the shorter side.
+// random positions. The paper gives sizes for a window of 512 x 512 pixels; here they scale with the shorter side.
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "renderer/scene/random.h"
+#include "renderer/core/random.h"
 #include "renderer/scene/scene_info.h"
 
 namespace sheer {
@@ -83,14 +83,15 @@ SceneInfo scene_quads() {
         .name = "Quads",
         .summary = "Textured quads parallel to the screen at random positions: the paper's measurement scene.",
         .source = "Vlcek, Havel, Herout, Front-to-Back Blending with Early Fragment Discarding, SCCG 2010, section 3",
-        .parameters = {Param::choice(
-                           "distribution",
-                           "sizes and places: random 26 to 256 px, small 154 px, big 307 px of 512, full the "
-                           "whole window; thick, medium and scarce are small ones ever further from the centre",
-                           "random", distribution_names()),
-                       Param::integer("count", "how many quads", "", 1024, 1, 65536),
-                       Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0)},
-        .default_shading = "4x4-textures",
+        .parameters =
+            {Param::choice(
+                 "distribution",
+                 "sizes and places: random 26 to 256 px, small 154 px, big 307 px of 512, full the "
+                 "whole window; thick, medium and scarce are small ones spread further and further from the centre",
+                 "random", distribution_names()),
+             Param::integer("count", "how many quads", "", 1024, 1, 65536),
+             Param::integer("seed", "of the random generator", "", 1, 0, 4294967295.0)},
+        .default_shading = shadings::sixteen_textures,
         .build = build_quads,
     };
 }

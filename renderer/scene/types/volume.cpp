@@ -1,7 +1,9 @@
 // A grid of scalars as slices that face the camera: the box of the volume cut by planes that are parallel to the
-// picture. A transfer function gives each value a colour and an opacity. Each slice has one depth and none cuts
+// picture. A transfer function gives each value a color and an opacity. Each slice has one depth and none cuts
 // another, so drawing them in the order of their depths is exact. Vertices are in camera space, where the corners of a
 // slice have the same z to the last bit.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,9 +20,10 @@ using glm::dvec2;
 using glm::dvec3;
 using nlohmann::json;
 
+constexpr const char* transfer_function = "transfer-function";  ///< the shading
 constexpr double longest_side = 2;
 constexpr dvec3 box_middle{0, 1.5, 0};
-/// A path as long as this has the opacity that the transfer function says.
+/// A path of this length has the opacity that the transfer function gives.
 constexpr double reference_length = longest_side / 256;
 constexpr int transfer_entries = 1024;
 /// For shadings that know nothing of the volume, over the reference length.
@@ -42,7 +45,7 @@ double turn_of(const dvec2& v) {
     return v.y >= 0 ? 1 - x : 3 + x;
 }
 
-/// Corners in camera space of where the plane at this z cuts the box, in turn around it.
+/// The corners, in camera space and in order, of the polygon in which the plane at this z cuts the box.
 std::vector<dvec2> cut_box(const std::array<dvec3, 8>& corners, double z) {
     std::vector<dvec2> cut;
     for (unsigned from = 0; from < 8; ++from)
@@ -86,7 +89,7 @@ double add_slices(Geometry& geometry, const Box& box, const glm::dmat4& view, in
     return distance;
 }
 
-/// A plinth whose top reaches into the box, and a ring with four pins that hold what is in it: opaque things in front
+/// A plinth whose top reaches into the box, and a ring with four pins that hold its contents: opaque objects in front
 /// of the volume, within it and behind it.
 void add_frame(Geometry& geometry, const Box& box) {
     const auto paint = [](const dvec3& color) -> Shade {
@@ -155,7 +158,7 @@ Volume read_volume(const json& volume, AssetReader& assets) {
     return assets.volume(data, options_of(volume));
 }
 
-/// What makes values of what a texture of 0..1 gives.
+/// Factor and offset from a texture's 0..1 to values.
 glm::vec2 value_of_texture(const Volume& volume) {
     if (volume.bytes.empty()) return {1, 0};
     const double span = volume.byte_range.y - volume.byte_range.x;
@@ -198,22 +201,22 @@ Geometry build_volume(const json& scene, const ImageSpec& image, AssetReader& as
     return geometry;
 }
 
-/// Fields that have an error of their own are null here, or absent.
+/// Fields that already have an error are null here, or absent.
 void check(const json& scene, const std::string& pointer, std::vector<FieldError>& errors) {
     check_camera(scene, pointer, errors);
     const json& points = scene.at("transfer");
     for (std::size_t i = 1; i < points.size(); ++i) {
         const json &last = points[i - 1].at("value"), &value = points[i].at("value");
         if (last.is_number() && value.is_number() && value <= last)
-            errors.push_back(
-                {pointer + "/transfer/" + std::to_string(i) + "/value", "must be over that of the point before"});
+            errors.push_back({pointer + "/transfer/" + std::to_string(i) + "/value",
+                              "must be greater than that of the previous point"});
     }
     const json &volume = scene.at("volume"), &range = volume.at("range");
     for (const std::string name : {"raw", "range"})
         if (volume.at("data") == "head" && !volume.at(name).is_null())
-            errors.push_back({pointer + "/volume/" + name, "is of no use to the built-in head"});
+            errors.push_back({pointer + "/volume/" + name, "does not apply to the built-in head"});
     if (range.is_array() && range[1] <= range[0])
-        errors.push_back({pointer + "/volume/range/1", "must be over the first"});
+        errors.push_back({pointer + "/volume/range/1", "must be greater than the first"});
 }
 
 /// Translucent skin, a pink brain, clear flesh and an opaque skull: the materials of the built-in head.
@@ -230,28 +233,30 @@ json usual_transfer() {
 }
 
 std::vector<Param> volume_parameters() {
-    Param size = Param::numbers("size", "voxels along x, y and z; x is the fastest", "", {64, 64, 64}, 1, largest_side)
+    const std::vector<std::string> axes = {"x", "y", "z"};
+    Param size = Param::numbers("size", "voxels along each axis; x is the fastest", "", {64, 64, 64}, 1, largest_side)
+                     .of(axes)
                      .required();
     size.whole = true;
-    Param raw =
-        Param::object("raw", "what a file without a header holds; leave it out for NRRD",
-                      {std::move(size),
-                       Param::choice("voxel", "type of the voxels", "uint8",
-                                     {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"}),
-                       Param::choice("endian", "which byte of a voxel comes first: the least or the greatest", "little",
-                                     {"little", "big"}),
-                       Param::numbers("spacing", "from voxel to voxel along x, y and z", "", {1, 1, 1}, 1e-6, 1e6)});
+    Param raw = Param::object(
+        "raw", "the contents of a file without a header; omit it for NRRD",
+        {std::move(size),
+         Param::choice("voxel", "type of the voxels", "uint8",
+                       {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"}),
+         Param::choice("endian", "which byte of a voxel comes first: the least or the greatest", "little",
+                       {"little", "big"}),
+         Param::numbers("spacing", "from voxel to voxel along each axis", "", {1, 1, 1}, 1e-6, 1e6).of(axes)});
     raw.optional = true;
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Param range = Param::numbers(
-        "range", "values of the file that become 0 and 1; left out, the least and the greatest that it has", "", {0, 1},
-        -infinity, infinity);
+    Param range =
+        Param::numbers("range", "values of the file that become 0 and 1; by default its least and its greatest", "",
+                       {0, 1}, -infinity, infinity);
     range.optional = true;
     range.default_value = nullptr;
     Param transfer = Param::list(
-        "transfer", "colour and opacity by value, linear between the points",
+        "transfer", "color and opacity by value, linear between the points",
         {Param::number("value", "of the volume", "", 0, 0, 1).required(),
-         Param::numbers("color", "red, green, blue", "", {1, 1, 1}, 0, 1).required(),
+         Param::color("color", "of the volume there", {1, 1, 1}).required(),
          Param::number("alpha", "opacity of a path as long as 1/256 of the volume's longest side", "", 0, 0, 1)
              .required()},
         1, 64);
@@ -264,7 +269,9 @@ std::vector<Param> volume_parameters() {
         Param::integer("slices", "how many, from the nearest to the farthest corner of the volume", "", 256, 1, 2048),
         std::move(transfer),
         Param::number("density", "of the whole volume; 2 is as opaque as going through it twice", "", 1, 0.001, 1000),
-        Param::boolean("light", "whether the shading transfer-function lights boundaries by their gradient", true),
+        Param::boolean("light",
+                       fmt::format("whether the shading {} lights boundaries using their gradient", transfer_function),
+                       true),
         Param::boolean("frame", "an opaque plinth, and a ring with pins around and within the volume", true),
         camera_parameter()};
 }
@@ -278,8 +285,7 @@ SceneInfo scene_volume() {
         .summary = "A grid of scalars, such as a head with its skull, as slices that face the camera.",
         .source = "Sheer",
         .parameters = volume_parameters(),
-        .default_shading = "transfer-function",
-        .own_shading = "transfer-function",
+        .own_shading = transfer_function,
         .check = check,
         .build = build_volume,
         .asset_field = "volume/data",

@@ -1,0 +1,59 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/compare/workbench.h"
+#include "renderer/core/random.h"
+#include "renderer/scene/depth_sort.h"
+
+namespace sheer {
+
+/// The running methods of a spec, and the rounds in which they are timed side by side. A method that fails is removed,
+/// and its result says why.
+class Contenders {
+  public:
+    /// All references must outlive it; `run` has the methods' results.
+    Contenders(const Spec& spec, const Scene& scene, const Target& target, Workbench& bench, Run& run)
+        : m_spec(spec), m_scene(scene), m_target(target), m_bench(bench), m_run(run) {}
+
+    /// Renders each method until it is warm, and keeps its picture. The baseline is made twice: how much it differs
+    /// from itself is the noise with which every other difference is compared.
+    void make();
+    /// Times the sorting that the methods that sort would need in every frame if the camera moved.
+    void prepare_sorting(const Geometry& geometry);
+    /// Rounds in which every method renders one frame, each round in a new random order: frames close in time share the
+    /// state of the machine, and no method always follows the same other one. No round begins that would exceed the
+    /// time limit if it took as long as the longest so far.
+    void time();
+    /// Runs `step` for each remaining method; this takes the job's progress from the fraction `from` to `to`.
+    void for_each(double from, double to, const std::string& doing,
+                  const std::function<void(Method&, MethodResult&)>& step);
+
+  private:
+    struct Contender {
+        std::unique_ptr<Method> method;
+        MethodResult* result;
+        bool again;  ///< it is the second instance of the baseline, which shares the first one's result
+
+        std::vector<gl::FrameSample>& samples(Run& run) const { return again ? run.baseline_again : result->samples; }
+        std::vector<double>& sort_ms(Run& run) const { return again ? run.baseline_again_sort_ms : result->sort_ms; }
+    };
+
+    void attempt_for(MethodResult& result, const std::string& doing, const std::function<void()>& step);
+    std::unique_ptr<Method> make_warm(const MethodSpec& method);
+    void time_round(Random& random);
+    void drop_failed();
+
+    const Spec& m_spec;
+    const Scene& m_scene;
+    const Target& m_target;
+    Workbench& m_bench;
+    Run& m_run;
+    std::optional<DepthSort> m_sort;  ///< if a method sorts
+    std::vector<Contender> m_all;
+};
+
+}  // namespace sheer

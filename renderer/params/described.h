@@ -1,0 +1,417 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sheer {
+
+/// A JSON document is not what its type says. The message begins with the JSON pointer of the value that is wrong.
+class DocumentError : public std::runtime_error {
+  public:
+    explicit DocumentError(const std::string& what) : std::runtime_error(what) {}
+    /// The same error, seen from the object or array that holds the value as `key`.
+    DocumentError below(const std::string& key) const;
+};
+
+/// JSON schemas (draft 2020-12) of named types, which refer to each other by `prefix` and name.
+class SchemaBook {
+  public:
+    explicit SchemaBook(std::string prefix) : m_prefix(std::move(prefix)) {}
+
+    /// A reference to the schema of this name; the caller has to add that schema.
+    nlohmann::json reference(const std::string& name) const { return {{"$ref", m_prefix + name}}; }
+    /// The same; makes the schema if the book does not have it yet.
+    nlohmann::json reference(const std::string& name, const std::function<nlohmann::json(SchemaBook&)>& make);
+    const std::map<std::string, nlohmann::json>& schemas() const { return m_schemas; }
+
+  private:
+    std::string m_prefix;
+    std::map<std::string, nlohmann::json> m_schemas;
+};
+
+/// A value, or the reason why there is none. Then the JSON value is null, and `<name>_reason` beside it gives the
+/// reason, if there is one.
+template <typename T>
+struct OrReason {
+    std::optional<T> value;
+    std::string reason;
+
+    explicit operator bool() const { return value.has_value(); }
+    const T& operator*() const { return *value; }
+    const T* operator->() const { return &*value; }
+};
+
+/// How an enum is written: specialise it with `static constexpr std::pair<E, const char*> all[]`.
+template <typename E>
+struct Words;
+
+/// The word for an enumerator.
+template <typename E>
+std::string word_of(E value) {
+    for (const auto& [one, word] : Words<E>::all)
+        if (one == value) return word;
+    throw std::logic_error("an enumerator has no word");
+}
+
+template <typename T>
+class Description;
+
+/// The members of a struct's JSON object. Each described struct declares its own after its definition:
+///
+///     template <>
+///     const Description<Mine>& description_of();
+template <typename T>
+const Description<T>& description_of() = delete;
+
+template <typename T>
+concept Described = requires {
+    description_of<T>();
+};
+
+namespace detail {
+
+[[noreturn]] void throw_wrong_type(const char* wanted, const nlohmann::json& found);
+[[noreturn]] void throw_unknown_word(const std::string& word);
+nlohmann::json or_null(nlohmann::json schema);
+
+/// Reads the value at `key`; errors name the key.
+template <typename Read>
+void read_below(const std::string& key, const Read& read) {
+    try {
+        read();
+    } catch (const DocumentError& error) {
+        throw error.below(key);
+    }
+}
+
+/// How a type is written, read, and described by a JSON schema.
+template <typename T>
+struct Codec;
+
+template <>
+struct Codec<bool> {
+    static nlohmann::json write(bool value) { return value; }
+    static void read(const nlohmann::json& from, bool& to) {
+        if (!from.is_boolean()) throw_wrong_type("true or false", from);
+        to = from.get<bool>();
+    }
+    static nlohmann::json schema(SchemaBook&) { return {{"type", "boolean"}}; }
+};
+
+template <std::integral T>
+struct Codec<T> {
+    static nlohmann::json write(T value) { return value; }
+    static void read(const nlohmann::json& from, T& to) {
+        if (!from.is_number_integer()) throw_wrong_type("a whole number", from);
+        to = from.get<T>();
+    }
+    static nlohmann::json schema(SchemaBook&) { return {{"type", "integer"}}; }
+};
+
+template <>
+struct Codec<double> {
+    static nlohmann::json write(double value) { return value; }
+    static void read(const nlohmann::json& from, double& to) {
+        if (!from.is_number()) throw_wrong_type("a number", from);
+        to = from.get<double>();
+    }
+    static nlohmann::json schema(SchemaBook&) { return {{"type", "number"}}; }
+};
+
+template <>
+struct Codec<std::string> {
+    static nlohmann::json write(const std::string& value) { return value; }
+    static void read(const nlohmann::json& from, std::string& to) {
+        if (!from.is_string()) throw_wrong_type("a string", from);
+        to = from.get<std::string>();
+    }
+    static nlohmann::json schema(SchemaBook&) { return {{"type", "string"}}; }
+};
+
+template <typename T>
+struct Codec<std::optional<T>> {
+    static nlohmann::json write(const std::optional<T>& value) {
+        return value ? Codec<T>::write(*value) : nlohmann::json();
+    }
+    static void read(const nlohmann::json& from, std::optional<T>& to) {
+        to.reset();
+        if (!from.is_null()) Codec<T>::read(from, to.emplace());
+    }
+    static nlohmann::json schema(SchemaBook& book) { return or_null(Codec<T>::schema(book)); }
+};
+
+template <typename T>
+struct Codec<std::vector<T>> {
+    static nlohmann::json write(const std::vector<T>& values) {
+        nlohmann::json array = nlohmann::json::array();
+        for (const T& value : values) array.push_back(Codec<T>::write(value));
+        return array;
+    }
+    static void read(const nlohmann::json& from, std::vector<T>& to) {
+        if (!from.is_array()) throw_wrong_type("an array", from);
+        to.clear();
+        for (const nlohmann::json& one : from) {
+            T value{};
+            read_below(std::to_string(to.size()), [&] { Codec<T>::read(one, value); });
+            to.push_back(std::move(value));
+        }
+    }
+    static nlohmann::json schema(SchemaBook& book) { return {{"type", "array"}, {"items", Codec<T>::schema(book)}}; }
+};
+
+template <typename T, std::size_t count>
+struct Codec<std::array<T, count>> {
+    static nlohmann::json write(const std::array<T, count>& values) {
+        return Codec<std::vector<T>>::write({values.begin(), values.end()});
+    }
+    static void read(const nlohmann::json& from, std::array<T, count>& to) {
+        std::vector<T> values;
+        Codec<std::vector<T>>::read(from, values);
+        if (values.size() != count) throw_wrong_type(("an array of " + std::to_string(count)).c_str(), from);
+        std::copy(values.begin(), values.end(), to.begin());
+    }
+    static nlohmann::json schema(SchemaBook& book) {
+        nlohmann::json schema = Codec<std::vector<T>>::schema(book);
+        schema["minItems"] = schema["maxItems"] = count;
+        return schema;
+    }
+};
+
+template <typename T>
+struct Codec<std::map<std::string, T>> {
+    static nlohmann::json write(const std::map<std::string, T>& values) {
+        nlohmann::json object = nlohmann::json::object();
+        for (const auto& [key, value] : values) object[key] = Codec<T>::write(value);
+        return object;
+    }
+    static void read(const nlohmann::json& from, std::map<std::string, T>& to) {
+        if (!from.is_object()) throw_wrong_type("an object", from);
+        to.clear();
+        for (const auto& item : from.items())
+            read_below(item.key(), [&] { Codec<T>::read(item.value(), to[item.key()]); });
+    }
+    static nlohmann::json schema(SchemaBook& book) {
+        return {{"type", "object"}, {"additionalProperties", Codec<T>::schema(book)}};
+    }
+};
+
+template <typename E>
+requires std::is_enum_v<E>
+struct Codec<E> {
+    static nlohmann::json write(E value) { return word_of(value); }
+    static void read(const nlohmann::json& from, E& to) {
+        std::string found;
+        Codec<std::string>::read(from, found);
+        for (const auto& [one, word] : Words<E>::all)
+            if (found == word) {
+                to = one;
+                return;
+            }
+        throw_unknown_word(found);
+    }
+    static nlohmann::json schema(SchemaBook&) {
+        nlohmann::json words = nlohmann::json::array();
+        for (const auto& [one, word] : Words<E>::all) words.push_back(word);
+        return {{"enum", words}};
+    }
+};
+
+template <Described T>
+struct Codec<T> {
+    static nlohmann::json write(const T& value) { return description_of<T>().write(value); }
+    static void read(const nlohmann::json& from, T& to) { description_of<T>().read(from, to); }
+    static nlohmann::json schema(SchemaBook& book) {
+        return book.reference(description_of<T>().name(),
+                              [](SchemaBook& to) { return description_of<T>().schema(to); });
+    }
+};
+
+/// Text in which "" stands for null.
+struct TextOrNull {
+    static nlohmann::json write(const std::string& value) {
+        return value.empty() ? nlohmann::json() : nlohmann::json(value);
+    }
+    static void read(const nlohmann::json& from, std::string& to) {
+        to.clear();
+        if (!from.is_null()) Codec<std::string>::read(from, to);
+    }
+    static nlohmann::json schema(SchemaBook&) { return {{"type", {"string", "null"}}}; }
+};
+
+}  // namespace detail
+
+/// The members of a struct `T` in its JSON object: the writer, the reader, the JSON schema and the docs are made from
+/// this. When reading, members that the object lacks keep the struct's default, since older programs wrote fewer of
+/// them, and unknown members are ignored. The schema describes what this program writes, so it allows neither.
+template <typename T>
+class Description {
+  public:
+    /// `name` is the schema's name, `text` says what the object is.
+    Description(std::string name, std::string text) : m_name(std::move(name)), m_text(std::move(text)) {}
+
+    /// Always present. An std::optional without a value is null.
+    template <typename M, typename Base>
+    requires std::derived_from<T, Base> Description& member(M Base::*member, const std::string& name,
+                                                            const std::string& text) {
+        return add<false, M, detail::Codec<M>>(member, name, text);
+    }
+    /// Absent if it equals `M{}`: "", 0, [].
+    template <typename M>
+    Description& maybe(M T::*member, const std::string& name, const std::string& text) {
+        return add<true, M, detail::Codec<M>>(member, name, text);
+    }
+    /// Absent if there is no value, and never null.
+    template <typename M>
+    Description& maybe(std::optional<M> T::*member, const std::string& name, const std::string& text) {
+        m_members.push_back({[=](const T& from, nlohmann::json& to) {
+                                 if (from.*member) to[name] = detail::Codec<M>::write(*(from.*member));
+                             },
+                             [=](const nlohmann::json& from, T& to) {
+                                 if (const auto found = from.find(name); found != from.end())
+                                     detail::read_below(
+                                         name, [&] { detail::Codec<std::optional<M>>::read(*found, to.*member); });
+                             },
+                             [=](SchemaBook& book, nlohmann::json& schema) {
+                                 set_property(schema, name, detail::Codec<M>::schema(book), text);
+                             }});
+        return *this;
+    }
+    /// "" is null.
+    Description& text_or_null(std::string T::*member, const std::string& name, const std::string& text) {
+        return add<false, std::string, detail::TextOrNull>(member, name, text);
+    }
+    /// `<name>` and `<name>_reason`.
+    template <typename M>
+    Description& member(OrReason<M> T::*member, const std::string& name, const std::string& text) {
+        using Value = detail::Codec<std::optional<M>>;
+        const std::string reason = name + "_reason";
+        m_members.push_back({[=](const T& from, nlohmann::json& to) {
+                                 to[name] = Value::write((from.*member).value);
+                                 if (!(from.*member) && !(from.*member).reason.empty())
+                                     to[reason] = (from.*member).reason;
+                             },
+                             [=](const nlohmann::json& from, T& to) {
+                                 if (const auto found = from.find(name); found != from.end())
+                                     detail::read_below(name, [&] { Value::read(*found, (to.*member).value); });
+                                 if (const auto found = from.find(reason); found != from.end())
+                                     detail::read_below(reason,
+                                                        [&] { detail::TextOrNull::read(*found, (to.*member).reason); });
+                             },
+                             [=](SchemaBook& book, nlohmann::json& schema) {
+                                 set_property(schema, name, Value::schema(book), text);
+                                 schema["required"].push_back(name);
+                                 set_property(schema, reason, {{"type", "string"}}, "why " + name + " is null");
+                             }});
+        return *this;
+    }
+    /// Arbitrary JSON; `schema` describes it.
+    Description& json(nlohmann::json T::*member, const std::string& name, const std::string& text,
+                      const std::function<nlohmann::json(SchemaBook&)>& schema) {
+        m_members.push_back({[=](const T& from, nlohmann::json& to) { to[name] = from.*member; },
+                             [=](const nlohmann::json& from, T& to) {
+                                 if (const auto found = from.find(name); found != from.end()) to.*member = *found;
+                             },
+                             [=](SchemaBook& book, nlohmann::json& to) {
+                                 set_property(to, name, schema(book), text);
+                                 to["required"].push_back(name);
+                             }});
+        return *this;
+    }
+    /// All members of a base struct of `T`.
+    template <typename Base>
+    requires std::derived_from<T, Base> Description& with(const Description<Base>& base) {
+        for (const auto& one : base.m_members) m_members.push_back({one.write, one.read, one.describe});
+        return *this;
+    }
+
+    const std::string& name() const { return m_name; }
+
+    nlohmann::json write(const T& value) const {
+        nlohmann::json object = nlohmann::json::object();
+        for (const Member& member : m_members) member.write(value, object);
+        return object;
+    }
+    /// Throws DocumentError.
+    void read(const nlohmann::json& from, T& to) const {
+        if (!from.is_object()) detail::throw_wrong_type("an object", from);
+        for (const Member& member : m_members) member.read(from, to);
+    }
+    nlohmann::json schema(SchemaBook& book) const {
+        nlohmann::json schema = {{"type", "object"},
+                                 {"description", m_text},
+                                 {"properties", nlohmann::json::object()},
+                                 {"required", nlohmann::json::array()},
+                                 {"additionalProperties", false}};
+        for (const Member& member : m_members) member.describe(book, schema);
+        return schema;
+    }
+
+  private:
+    template <typename Other>
+    friend class Description;
+
+    struct Member {
+        std::function<void(const T&, nlohmann::json&)> write;
+        std::function<void(const nlohmann::json&, T&)> read;
+        std::function<void(SchemaBook&, nlohmann::json&)> describe;
+    };
+
+    static void set_property(nlohmann::json& schema, const std::string& name, nlohmann::json of_value,
+                             const std::string& text) {
+        if (!text.empty()) of_value["description"] = text;
+        schema["properties"][name] = std::move(of_value);
+    }
+
+    template <bool may_be_absent, typename M, typename Codec>
+    Description& add(M T::*member, const std::string& name, const std::string& text) {
+        m_members.push_back({[=](const T& from, nlohmann::json& to) {
+                                 if constexpr (may_be_absent)
+                                     if (from.*member == M{}) return;
+                                 to[name] = Codec::write(from.*member);
+                             },
+                             [=](const nlohmann::json& from, T& to) {
+                                 const auto found = from.find(name);
+                                 if (found == from.end()) return;
+                                 detail::read_below(name, [&] { Codec::read(*found, to.*member); });
+                             },
+                             [=](SchemaBook& book, nlohmann::json& schema) {
+                                 set_property(schema, name, Codec::schema(book), text);
+                                 if (!may_be_absent) schema["required"].push_back(name);
+                             }});
+        return *this;
+    }
+
+    std::string m_name, m_text;
+    std::vector<Member> m_members;
+};
+
+template <typename T>
+nlohmann::json to_document(const T& value) {
+    return detail::Codec<T>::write(value);
+}
+
+/// Throws DocumentError.
+template <typename T>
+T from_document(const nlohmann::json& document) {
+    T value{};
+    detail::Codec<T>::read(document, value);
+    return value;
+}
+
+/// Adds the schemas of `T` and of everything in it to `book`; returns a reference to the schema of `T`.
+template <typename T>
+nlohmann::json schema_in(SchemaBook& book) {
+    return detail::Codec<T>::schema(book);
+}
+
+}  // namespace sheer

@@ -1,0 +1,105 @@
+// The JSON schemas of a spec: as it may be posted, and with its defaults filled in.
+#include <algorithm>
+
+#include "renderer/methods/shared/method.h"
+#include "renderer/params/param.h"
+#include "renderer/scene/scene_info.h"
+#include "renderer/spec/spec.h"
+#include "renderer/spec/spec_fields.h"
+#include "renderer/spec/sweep.h"
+#include "renderer/spec/swept_schema.h"
+
+namespace sheer {
+
+using nlohmann::json;
+
+namespace {
+
+using SchemaOf = json (*)(const std::vector<Param>&);
+
+json label_schema() {
+    return {{"type", "string"}, {"minLength", 1}, {"maxLength", max_text_bytes}};
+}
+
+json scene_schemas(SchemaOf object) {
+    json scenes = json::array();
+    for (const SceneInfo& scene : all_scenes()) {
+        json one = object(scene.all_parameters());
+        one["title"] = scene.name;
+        one["description"] = scene.summary;
+        one["properties"]["type"] = {{"const", scene.id}};
+        one["required"].push_back("type");
+        scenes.push_back(one);
+    }
+    return scenes;
+}
+
+/// Objects by their id.
+json method_schemas(SchemaOf object) {
+    json methods = json::array();
+    for (const MethodInfo& method : all_methods()) {
+        json one = object(method.parameters);
+        one["title"] = method.name;
+        one["description"] = method.summary;
+        one["properties"]["id"] = {{"const", method.id}};
+        one["required"].push_back("id");
+        methods.push_back(one);
+    }
+    return methods;
+}
+
+json with_label(json methods, bool is_required) {
+    for (json& method : methods) {
+        method["properties"]["label"] = label_schema();
+        if (is_required) method["required"].push_back("label");
+    }
+    return methods;
+}
+
+json with_ids(json methods) {
+    json ids = json::array();
+    for (const MethodInfo& method : all_methods()) ids.push_back(method.id);
+    methods.push_back({{"enum", ids}});
+    return methods;
+}
+
+/// The fields that have their own readers, in either form.
+void add_own_fields(json& schema, SchemaOf object, const json& methods) {
+    json& properties = schema["properties"];
+    properties["tags"].update({{"type", "object"},
+                               {"maxProperties", max_tags},
+                               {"additionalProperties", {{"type", "string"}, {"maxLength", max_text_bytes}}}});
+    properties["sweep"].update({{"type", "array"}, {"maxItems", max_sweeps}, {"items", swept_axis_schema()}});
+    properties["scene"]["oneOf"] = scene_schemas(object);
+    properties["methods"].update(
+        {{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods}, {"items", {{"oneOf", methods}}}});
+    properties["checks"]["items"]["properties"]["at"].update(swept_point_schema());
+}
+
+}  // namespace
+
+json spec_schema() {
+    json schema = schema_of(spec_fields());
+    schema["required"] = {"scene", "methods"};
+    const json methods = with_ids(with_label(method_schemas(schema_of), false));
+    add_own_fields(schema, schema_of, methods);
+    schema["properties"]["reference"]["oneOf"] = methods;
+    return schema;
+}
+
+json normalised_spec_schema() {
+    json schema = normalised_schema_of(spec_fields());
+    add_own_fields(schema, normalised_schema_of, with_label(method_schemas(normalised_schema_of), true));
+    schema["properties"]["reference"]["oneOf"] = method_schemas(normalised_schema_of);
+    json baseline = label_schema();
+    baseline["description"] = "label of the method with which times are compared";
+    schema["properties"]["baseline"] = baseline;
+    schema["description"] = "A spec with its defaults filled in: configs/README.md";
+    return schema;
+}
+
+json describe_spec_fields() {
+    return to_json(spec_fields());
+}
+
+}  // namespace sheer

@@ -1,0 +1,33 @@
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "server/process/child_process.h"
+
+namespace sheer {
+
+struct PixelOptions {
+    std::filesystem::path data;  ///< the archive's folder
+    std::uint64_t memory_limit_bytes = 0;
+    std::chrono::milliseconds time_limit{60'000};
+    std::string program = own_program;
+};
+
+struct PixelPlace {
+    int x = 0, y = 0;  ///< from the top left
+    int run = 0;       ///< which run of the report
+};
+
+/// The explanation of a pixel, or why there is none; one of the texts is empty.
+struct PixelAnswer {
+    std::string json;     ///< what `sheer pixel --json` prints
+    std::string refusal;  ///< for the client: the report can no longer be rendered here
+    bool too_slow = false;
+};
+
+/// Runs `sheer pixel` on a done report in a child that may die; the report is passed as a file that is only in memory.
+/// Throws std::runtime_error if the child dies or has an internal error, std::system_error if it cannot be started.
+PixelAnswer run_pixel_child(const std::string& report, const PixelPlace& place, const PixelOptions& options);
+
+}  // namespace sheer

@@ -1,0 +1,120 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/results/report.h"
+
+namespace sheer::http::answer {
+
+// The service's answers other than reports and catalogs, as types. The descriptions say what each member means.
+
+struct FieldError {
+    std::string pointer, detail;
+
+    bool operator==(const FieldError&) const = default;
+};
+
+struct Problem {
+    std::string type = "about:blank", title;
+    int status = 500;
+    std::string detail;
+    std::vector<FieldError> errors;
+    std::optional<std::size_t> error_count;
+    std::vector<std::string> allow;
+};
+
+struct Health {
+    std::string status;
+};
+
+struct Readiness : Health {
+    std::string last_rendered_at;
+};
+
+struct Progress {
+    std::string id;
+    report::Status status = report::Status::queued;
+    double progress = 0;
+    std::optional<report::Error> error;
+};
+
+/// The data of an event.
+struct Event : Progress {
+    std::string stage;
+};
+
+struct ReportLine : Progress {
+    std::string url, created_at, finished_at, title, scene;
+    nlohmann::json tags = nlohmann::json::object();
+    std::vector<std::string> methods;
+    std::string spec_sha256;
+    nlohmann::json verdict, preview;
+    std::string broken;
+};
+
+struct ReportList {
+    std::vector<ReportLine> reports;
+    std::string next_cursor;
+    std::int64_t count = 0;
+};
+
+/// The findings of the check of an upload; which of them are present depends on the type of the file.
+struct AssetFacts {
+    std::optional<std::int64_t> width, height, channels;
+    std::optional<std::int64_t> triangles, materials, pictures;
+    std::optional<std::array<std::int64_t, 3>> size;
+    std::optional<std::array<double, 3>> spacing;
+    std::string voxel, encoding;
+    std::optional<std::array<double, 2>> range;
+    std::optional<std::vector<Note>> notes;
+};
+
+struct Asset : AssetFacts {
+    std::string sha256, type, media_type, name;
+    std::int64_t bytes = 0;
+    std::string created_at, url, broken;
+};
+
+struct AssetKind {
+    std::string media_type, type;
+    std::vector<std::string> suffixes;
+};
+
+struct AssetList {
+    std::vector<Asset> assets;
+    std::vector<AssetKind> accepts;
+    std::uint64_t max_bytes = 0;
+};
+
+}  // namespace sheer::http::answer
+
+namespace sheer {
+
+template <>
+const Description<http::answer::FieldError>& description_of();
+template <>
+const Description<http::answer::Problem>& description_of();
+template <>
+const Description<http::answer::Health>& description_of();
+template <>
+const Description<http::answer::Readiness>& description_of();
+template <>
+const Description<http::answer::Event>& description_of();
+template <>
+const Description<http::answer::ReportLine>& description_of();
+template <>
+const Description<http::answer::ReportList>& description_of();
+template <>
+const Description<http::answer::AssetFacts>& description_of();
+template <>
+const Description<http::answer::Asset>& description_of();
+template <>
+const Description<http::answer::AssetKind>& description_of();
+template <>
+const Description<http::answer::AssetList>& description_of();
+
+}  // namespace sheer

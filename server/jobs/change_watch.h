@@ -1,0 +1,15 @@
+#pragma once
+#include <chrono>
+
+namespace sheer {
+
+/// Notices when any process writes to a store. For one thread.
+class ChangeWatch {
+  public:
+    virtual ~ChangeWatch() = default;
+    /// Waits until something was written since the last call, or since this object was made, and returns true, which
+    /// may also happen if nothing was written. False when `limit` has passed. Throws StoreError.
+    virtual bool wait(std::chrono::milliseconds limit) = 0;
+};
+
+}  // namespace sheer

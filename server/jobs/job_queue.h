@@ -1,0 +1,89 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/jobs/blobs.h"
+#include "server/jobs/job_error.h"
+
+namespace sheer {
+
+/// The caller's name for a request, by which a repeated request is recognized.
+struct IdempotencyKey {
+    std::string key;
+    std::string body_sha256;
+};
+
+struct NewReport {
+    std::string id;
+    std::string spec;  ///< canonical text of the normalised spec
+    std::string spec_sha256;
+    std::optional<IdempotencyKey> idempotency;
+};
+
+struct SubmitResult {
+    enum class Outcome { created, repeated, key_reused, queue_full };
+    Outcome outcome = Outcome::created;
+    std::string id;  ///< of the new report, or of the one that the key already names
+};
+
+/// A worker's right to run a job. It ends when the job ends or when another worker gets the job.
+struct Lease {
+    std::string id;
+    std::string owner;  ///< name of the worker
+    int attempt = 0;    ///< from 1
+    std::string spec;
+    std::string spec_sha256;
+    std::int64_t created_ms = 0;
+    int setbacks = 0;  ///< how often it was set back before
+};
+
+enum class LeaseState { held, cancel_requested, lost };
+
+struct FinishedReport {
+    nlohmann::json report;
+    std::int64_t finished_ms = 0;
+    std::vector<BlobName> blobs;  ///< every picture that `report` names, each once
+    /// The bytes of one of `blobs`; may be called more than once for each. May throw.
+    std::function<std::string(const std::string& sha256)> read_blob;
+};
+
+/// The jobs that are queued or running. A job has the id of the report that it becomes.
+class JobQueue {
+  public:
+    virtual ~JobQueue() = default;
+
+    /// Queues a report, unless `max_queued` are already waiting or its idempotency key is known. Throws StoreFull.
+    virtual SubmitResult submit(const NewReport& report, std::size_t max_queued) = 0;
+
+    // The workers' side.
+
+    /// The oldest queued job that is due, now running under `owner`; jobs whose lease expired are dealt with first.
+    /// None while there is no room for reports.
+    virtual std::optional<Lease> lease(const std::string& owner) = 0;
+    /// Renews the lease and stores the progress.
+    virtual LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) = 0;
+    /// The same question without renewing anything: cheap enough to ask often.
+    virtual LeaseState state(const Lease& lease) = 0;
+    /// Makes the report done with all its pictures, once. Returns false if the lease was lost or the job cancelled.
+    virtual bool commit(const Lease& lease, const FinishedReport& finished) = 0;
+    /// Ends the attempt without a report; `retry` if another attempt could succeed.
+    virtual void fail(const Lease& lease, const JobError& error, bool retry) = 0;
+    /// Ends the attempt of a renderer that was killed by a signal. Another one follows, as after `fail`, unless the
+    /// same spec has killed a renderer by the same signal before.
+    virtual void fail_by_signal(const Lease& lease, const JobError& error, int signal) = 0;
+    /// Gives the job back because the disk of this machine is full or fails. This does not count as an attempt; the
+    /// wait for the next one grows each time, and after LeaseRules::max_setbacks the job fails with `error`.
+    virtual void set_back(const Lease& lease, const JobError& error, bool lacks_room) = 0;
+    /// Ends the attempt because the job was cancelled.
+    virtual void cancel(const Lease& lease) = 0;
+    /// Gives the job back as if it had not been tried.
+    virtual void release(const Lease& lease) = 0;
+    /// Ends the leases of a worker that is known to be dead.
+    virtual void end_leases_of(const std::string& owner) = 0;
+};
+
+}  // namespace sheer

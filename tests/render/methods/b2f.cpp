@@ -1,0 +1,27 @@
+#include "tests/render/method_row.h"
+
+namespace sheer::test {
+
+MethodRow row_b2f() {
+    return {
+        .id = "b2f",
+        .formula = [](const nlohmann::json&) -> Formula { return over_by_depth; },
+        .sorts_primitives = true,
+        .variants = {{nlohmann::json::object(), rounded_back_to_front}},
+        .litmus = {{"",
+                    {nlohmann::json::object()},
+                    {{{"shuffled"}, passes, "it sorts before it draws"},
+                     {{"black", "white", "checker", "alpha_to_0", "alpha_to_1", "one_layer", "64_layers", "unequal",
+                       "window", "close_pair", "interleaved"},
+                      passes,
+                      "the over operator from far to near is the definition of the correct picture"},
+                     {{"opaque_front", "opaque_behind", "opaque_between"},
+                      passes,
+                      "the depth test against the opaque pass hides what is behind"},
+                     {{"glass", "leaves"},
+                      fails,
+                      "a primitive is drawn whole, so one side of the cut has the wrong order"}}}},
+    };
+}
+
+}  // namespace sheer::test

@@ -1,0 +1,22 @@
+#include "tests/render/method_row.h"
+
+namespace sheer::test {
+
+MethodRow row_depth_peeling() {
+    return {
+        .id = "depth_peeling",
+        .formula = [](const nlohmann::json&) -> Formula { return over_by_depth; },
+        .variants = {{nlohmann::json::object()}},
+        .litmus = {{"",
+                    {nlohmann::json::object()},
+                    {{{"shuffled"}, passes, "each peel is the nearest remaining fragment, whatever the order"},
+                     {{"black", "white", "checker", "alpha_to_0", "alpha_to_1", "one_layer", "64_layers", "unequal",
+                       "window", "close_pair", "interleaved"},
+                      passes,
+                      "every layer is peeled and composited in 32 bits"},
+                     {{"opaque_front", "opaque_behind", "opaque_between"}, passes, "it peels up to the opaque depth"},
+                     {{"glass", "leaves"}, passes, "it peels per pixel, not per primitive"}}}},
+    };
+}
+
+}  // namespace sheer::test

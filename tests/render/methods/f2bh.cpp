@@ -1,0 +1,29 @@
+#include "tests/render/method_row.h"
+
+namespace sheer::test {
+
+// At threshold 0 nothing is closed; at 0.01, in the litmus scenes, that much of a color may be left out.
+MethodRow row_f2bh() {
+    return {
+        .id = "f2bh",
+        .formula = [](const nlohmann::json&) -> Formula { return over_by_depth; },
+        .sorts_primitives = true,
+        .variants = {{{{"threshold", 0}, {"first_batch", 3}, {"growth", 1}}, rounded_front_to_back}},
+        .litmus =
+            {{"",
+              {nlohmann::json::object(), {{"first_batch", 1}, {"growth", 1}, {"tile_px", 4}}},
+              {{{"shuffled"}, passes, "it sorts before it draws"},
+               {{"black", "white", "checker", "alpha_to_0", "alpha_to_1", "one_layer", "64_layers", "unequal", "window",
+                 "close_pair", "interleaved"},
+                passes,
+                "a pixel is closed if less than the threshold, 0.01, of transmittance is left, so no color is off by "
+                "more"},
+               {{"opaque_front", "opaque_behind", "opaque_between"}, passes, "it starts from the opaque pass's depth"},
+               {{"glass", "leaves"},
+                fails,
+                "a primitive is drawn whole, so one side of the cut has the wrong order"}}}},
+        .litmus_tolerance = 0.01,
+    };
+}
+
+}  // namespace sheer::test

@@ -1,0 +1,265 @@
+#include "memory_store.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "memory_state.h"
+#include "renderer/core/sha256.h"
+
+namespace sheer::test::memory_store {
+
+using nlohmann::json;
+
+class MemoryContent : public Content {
+  public:
+    MemoryContent(std::shared_ptr<MemoryState> state, std::string bytes)
+        : m_state(std::move(state)), m_bytes(std::move(bytes)) {}
+    std::uint64_t size_bytes() const override { return m_bytes.size(); }
+    void read(std::uint64_t offset, std::span<char> bytes) const override {
+        m_state->on_call();
+        if (offset + bytes.size() > m_bytes.size()) throw StoreError("there are fewer bytes");
+        std::memcpy(bytes.data(), m_bytes.data() + offset, bytes.size());
+    }
+
+  private:
+    const std::shared_ptr<MemoryState> m_state;
+    const std::string m_bytes;
+};
+
+std::string lowered(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return lowered(text).find(lowered(part)) != std::string::npos;
+}
+
+bool has_tag(const json& tags, const std::string& wanted) {
+    const std::size_t colon = wanted.find(':');
+    const auto found = tags.find(wanted.substr(0, colon));
+    return found != tags.end() && (colon == std::string::npos || *found == wanted.substr(colon + 1));
+}
+
+bool fits(const Job& job, const ListFilter& filter) {
+    const auto has_text = [&](const json& value) { return contains(value.get<std::string>(), filter.q); };
+    return (filter.q.empty() || has_text(job.facets.title) || std::ranges::any_of(job.facets.tags, has_text)) &&
+           (filter.tag.empty() || has_tag(job.facets.tags, filter.tag)) &&
+           (filter.method.empty() || std::ranges::count(job.facets.methods, lowered(filter.method)) > 0) &&
+           (filter.scene.empty() || job.facets.scene == filter.scene) &&
+           (!filter.status || job.record.status == *filter.status);
+}
+
+ReportSummary summary_of(const Job& job) {
+    const ReportRecord& record = job.record;
+    ReportSummary summary{.id = record.id, .status = record.status, .progress = record.progress};
+    summary.created_ms = record.created_ms;
+    summary.finished_ms = record.finished_ms;
+    summary.title = job.facets.title;
+    summary.scene = job.facets.scene;
+    summary.spec_sha256 = record.spec_sha256;
+    summary.error = record.error;
+    summary.methods = job.facets.methods;
+    summary.tags = job.facets.tags;
+    if (record.status != Status::done) return summary;
+    const json report = json::parse(record.report);
+    summary.verdict = report.value("verdict", "");
+    summary.preview = preview_of(report);
+    return summary;
+}
+
+void room_was_made(const Reading& state) {
+    for (auto& [id, job] : state->jobs)
+        if (job.record.status == Status::queued && job.lacks_room) job.not_before_ms = 0;
+}
+
+class Reports : public ReportArchive {
+  public:
+    explicit Reports(const Base& base) : m_base(base) {}
+
+    std::optional<ReportRecord> find(const std::string& id) override {
+        const Reading state(*m_base.state);
+        const auto found = state->jobs.find(id);
+        if (found == state->jobs.end()) return std::nullopt;
+        return found->second.record;
+    }
+
+    ReportPage list(const ListFilter& filter) override {
+        const Reading state(*m_base.state);
+        ReportPage page;
+        for (auto each = state->jobs.rbegin(); each != state->jobs.rend(); ++each) {
+            if (!fits(each->second, filter)) continue;
+            ++page.count;
+            if (page.more || (!filter.before_id.empty() && each->first >= filter.before_id)) continue;
+            page.more = static_cast<int>(page.reports.size()) == filter.limit;
+            if (!page.more) page.reports.push_back(summary_of(each->second));
+        }
+        return page;
+    }
+
+    Removal remove(const std::string& id) override {
+        const Writing state(*m_base.state);
+        const auto found = state->jobs.find(id);
+        if (found == state->jobs.end()) return Removal::not_found;
+        Job& job = found->second;
+        if (job.record.status == Status::queued) {
+            end_attempt(job, {}, Status::cancelled, m_base.clock());
+            return Removal::cancelled;
+        }
+        if (job.record.status == Status::running) {
+            job.cancel_requested = true;
+            return Removal::cancelling;
+        }
+        state->jobs.erase(found);
+        std::erase_if(state->blobs, [&](const auto& blob) { return !is_named(state, blob.first); });
+        room_was_made(state);
+        return Removal::deleted;
+    }
+
+  private:
+    static bool is_named(const Reading& state, const std::string& sha256) {
+        return std::ranges::any_of(state->jobs, [&](const auto& each) {
+            return std::ranges::count(each.second.blobs, sha256, &BlobName::sha256) > 0;
+        });
+    }
+
+    const Base& m_base;
+};
+
+class Pictures : public Blobs {
+  public:
+    explicit Pictures(const Base& base) : m_base(base) {}
+
+    std::optional<Blob> open(const std::string& sha256) override {
+        const Reading state(*m_base.state);
+        const auto found = state->blobs.find(sha256);
+        if (found == state->blobs.end()) return std::nullopt;
+        return Blob{found->second.media_type, std::make_shared<MemoryContent>(m_base.state, found->second.bytes)};
+    }
+
+  private:
+    const Base& m_base;
+};
+
+class Uploads : public Assets {
+  public:
+    explicit Uploads(const Base& base) : m_base(base) {}
+
+    void add(const Asset& asset, const std::string& bytes) override {
+        const Writing state(*m_base.state);
+        if (const std::string lack = lack_of_room(state, m_base.clock()); !lack.empty()) throw StoreFull(lack);
+        if (sha256_hex(bytes) != asset.sha256) throw StoreError("an upload has another hash");
+        if (state->assets.contains(asset.sha256)) return;
+        KeptAsset kept{asset, bytes, ++state->assets_added};
+        kept.asset.created_ms = m_base.clock();
+        state->assets.emplace(asset.sha256, std::move(kept));
+    }
+
+    std::optional<Asset> find(const std::string& sha256) override {
+        const auto opened = open(sha256);
+        if (!opened) return std::nullopt;
+        return opened->asset;
+    }
+
+    std::optional<OpenAsset> open(const std::string& sha256) override {
+        const Reading state(*m_base.state);
+        const auto found = state->assets.find(sha256);
+        if (found == state->assets.end()) return std::nullopt;
+        return OpenAsset{found->second.asset, std::make_shared<MemoryContent>(m_base.state, found->second.bytes)};
+    }
+
+    std::vector<Asset> list(int limit) override {
+        const Reading state(*m_base.state);
+        std::vector<KeptAsset> kept;
+        for (const auto& [sha256, asset] : state->assets) kept.push_back(asset);
+        std::ranges::sort(kept, std::greater<>(), &KeptAsset::order);
+        std::vector<Asset> assets;
+        for (const KeptAsset& each : kept)
+            if (static_cast<int>(assets.size()) < limit) assets.push_back(each.asset);
+        return assets;
+    }
+
+    Removal remove(const std::string& sha256) override {
+        const Writing state(*m_base.state);
+        if (!state->assets.contains(sha256)) return Removal::not_found;
+        for (const auto& [id, job] : state->jobs)
+            if (!is_final(job.record.status) && contains(job.record.spec, sha256)) return Removal::in_use;
+        state->assets.erase(sha256);
+        room_was_made(state);
+        return Removal::removed;
+    }
+
+  private:
+    const Base& m_base;
+};
+
+class Health : public Readiness {
+  public:
+    explicit Health(const Base& base) : m_base(base) {}
+    void note_rendered() override { Writing(*m_base.state)->last_rendered_ms = m_base.clock(); }
+    std::optional<std::int64_t> last_rendered_ms() override { return Reading(*m_base.state)->last_rendered_ms; }
+    std::string lack_of_room() override { return memory_store::lack_of_room(Reading(*m_base.state), m_base.clock()); }
+
+  private:
+    const Base& m_base;
+};
+
+class Watch : public ChangeWatch {
+  public:
+    explicit Watch(std::shared_ptr<MemoryState> state) : m_state(std::move(state)), m_seen(Reading(*m_state)->writes) {}
+
+    bool wait(std::chrono::milliseconds limit) override {
+        m_state->on_call();
+        std::unique_lock lock(m_state->mutex);
+        const bool changed = m_state->written.wait_for(lock, limit, [this] { return m_state->writes != m_seen; });
+        m_seen = m_state->writes;
+        return changed;
+    }
+
+  private:
+    const std::shared_ptr<MemoryState> m_state;
+    std::uint64_t m_seen;
+};
+
+}  // namespace sheer::test::memory_store
+
+namespace sheer::test {
+
+std::shared_ptr<MemoryState> make_memory_state() {
+    return std::make_shared<MemoryState>();
+}
+
+struct MemoryStore::Parts {
+    memory_store::Base base;
+    std::unique_ptr<JobQueue> queue = memory_store::make_queue(base);
+    memory_store::Reports reports{base};
+    memory_store::Pictures blobs{base};
+    memory_store::Uploads assets{base};
+    memory_store::Health readiness{base};
+};
+
+MemoryStore::MemoryStore(std::shared_ptr<MemoryState> state, LeaseRules rules, ClockMs clock)
+    : m_parts(std::make_unique<Parts>(memory_store::Base{std::move(state), rules, std::move(clock)})) {}
+
+MemoryStore::~MemoryStore() = default;
+
+JobQueue& MemoryStore::queue() {
+    return *m_parts->queue;
+}
+ReportArchive& MemoryStore::reports() {
+    return m_parts->reports;
+}
+Blobs& MemoryStore::blobs() {
+    return m_parts->blobs;
+}
+Assets& MemoryStore::assets() {
+    return m_parts->assets;
+}
+Readiness& MemoryStore::readiness() {
+    return m_parts->readiness;
+}
+std::unique_ptr<ChangeWatch> MemoryStore::watch() {
+    return std::make_unique<memory_store::Watch>(m_parts->base.state);
+}
+
+}  // namespace sheer::test
