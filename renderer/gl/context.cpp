@@ -68,6 +68,7 @@ void Context::initialize(const Resolver& resolve, DeviceInfo device, const Conte
     m_device.software = is_software(m_device.renderer);
     m_device.extensions = sorted_extensions(m_gl);
     m_workarounds = Workarounds(m_device, request.disabled_workarounds);
+    if (m_workarounds.has("keep-programs")) m_gl.DeleteProgram = [](GLuint) {};
     spdlog::debug("{} ({}): {}, OpenGL {}", m_device.name, m_device.platform, m_device.renderer, m_device.gl_version);
     check("making the context");
 }

@@ -31,7 +31,14 @@ TEST(Workarounds, EachHasANameOfItsOwnAndAParagraph) {
 TEST(Workarounds, TimerQueriesAreFlushedOnLlvmpipeOnly) {
     EXPECT_THAT(Workarounds(device("llvmpipe (LLVM 15.0.6, 256 bits)"), {}).names(),
                 ElementsAre("flush-timer-queries"));
-    EXPECT_THAT(Workarounds(device("NVIDIA H200/PCIe/SSE2"), {}).names(), ElementsAre());
+    EXPECT_THAT(Workarounds(device("AMD Radeon Graphics"), {}).names(), ElementsAre());
+}
+
+TEST(Workarounds, ProgramsAreKeptOnNvidiaOnly) {
+    DeviceInfo nvidia = device("NVIDIA H100 80GB HBM3/PCIe/SSE2");
+    nvidia.vendor = "NVIDIA Corporation";
+    EXPECT_THAT(Workarounds(nvidia, {}).names(), ElementsAre("keep-programs"));
+    EXPECT_THAT(Workarounds(device("AMD Radeon Graphics"), {}).names(), ElementsAre());
 }
 
 TEST(Workarounds, OneInUseIsLogged) {
