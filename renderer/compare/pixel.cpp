@@ -108,7 +108,7 @@ class Explainer {
           m_x(x),
           m_y(y) {
         for (const PixelFragment& fragment : stack.fragments)
-            m_fragments.push_back({fragment.primitive, fragment.depth});
+            m_fragments.push_back({fragment.primitive, fragment.depth, fragment.alpha});
         if (stack.opaque) m_opaque_depth = stack.opaque->depth;
     }
 

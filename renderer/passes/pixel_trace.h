@@ -38,6 +38,7 @@ class PixelTrace : public DrawObserver {
     struct Surface {
         std::uint32_t primitive = 0;
         double depth = 1;
+        double alpha = 0;
     };
     struct Fragment {
         std::size_t number = 0;  ///< from 1, near to far, as in PixelStack::fragments
@@ -67,6 +68,8 @@ class PixelTrace : public DrawObserver {
     int y() const { return m_pixel.y; }
     /// Empty if `program` drew nothing there. Waits for the device.
     Draws of(const gl::Program& program) const;
+    /// The alpha of the fragment with this number, before any method's own rounding.
+    double alpha(std::size_t number) const { return m_fragments.at(number - 1).alpha; }
     /// The number of the fragment closest to this depth; none if the opaque surface is closest.
     std::optional<std::size_t> at_depth(double depth) const;
 

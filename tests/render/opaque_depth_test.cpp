@@ -45,7 +45,9 @@ TEST(OpaqueDepth, BlendsUpToTheFirstOpaqueFragment) {
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("shader_depth")), 2 + composite);
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("shader_depth", 0, 16)), 2 + composite);
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("target_alpha")), 2 + composite);
-    EXPECT_EQ(samples_per_pixel(scene, opaque_depth("two_pass")), 2 + composite + depth_copy);
+    // A device may count the fragment with alpha 0 here: its shader asks for early tests before it discards it.
+    const nlohmann::json all_seen = full_layers({0.5, 1, 0.5, 1, 0.5});
+    EXPECT_EQ(samples_per_pixel(all_seen, opaque_depth("two_pass")), 2 + composite + depth_copy);
 }
 
 /// The fourth case of the article, opaque behind opaque: equal marks would let all of them through.
@@ -125,8 +127,8 @@ TEST(OpaqueDepth, OnlyTargetAlphaSeesAccumulatedOpacity) {
     EXPECT_EQ(samples_per_pixel(scene, opaque_depth("two_pass", 1)), 10 + composite + depth_copy);
 }
 
-/// 16 bits distinguish 65,535 triangles, so 40,000 rectangles of two need a second batch; 24 bits need one. No fragment
-/// is opaque, so the one merge counts once per pixel.
+/// 16 bits distinguish 32,768 triangles, so 40,000 rectangles of two need three batches; 24 bits need one. No fragment
+/// is opaque, so each of the two merges counts once per pixel.
 TEST(OpaqueDepth, DepthBitsBoundTheBatch) {
     const auto context = make_context("egl");
     const nlohmann::json quads = {{"type", "quads"}, {"count", 40000}, {"shading", "constant"}};
@@ -135,7 +137,7 @@ TEST(OpaqueDepth, DepthBitsBoundTheBatch) {
     Stage stage(*context, spec, PixelFormat::rgba32f);
     const auto narrow = stage.make(spec.methods[0]), wide = stage.make(spec.methods[1]);
     const auto difference = samples_of_frame(*context, stage, *narrow) - samples_of_frame(*context, stage, *wide);
-    EXPECT_EQ(difference, 2 * 2);
+    EXPECT_EQ(difference, 2 * 2 * 2);
 }
 
 nlohmann::json random_layers(std::uint64_t seed) {
