@@ -172,6 +172,7 @@ void Scene::add_own_shading(const Geometry& geometry, const nlohmann::json& para
     m_shading_source += define("SHEER_TEXTURED", own.is_textured) + define("SHEER_ITERATIONS", iterations_per_fragment);
     m_shading_source += gl::shader_file("scenes/glsl_shading.glsl");
     m_shading_source += own.function;
+    m_shading_source += gl::shader_file("scenes/own_work.glsl");
     if (own.is_textured) make_textures(geometry, parameters.at("texture"));
 }
 

@@ -71,16 +71,3 @@ SHEER_DIVISOR(double, double)
 SHEER_DIVISOR(dvec2, double)
 SHEER_DIVISOR(dvec3, double)
 SHEER_DIVISOR(dvec4, double)
-
-// The user's function follows.
-vec4 sheer_own_work(vec2 uv, vec4 tint);
-
-// 1. As in real_work.glsl, llvmpipe skips only what is in a loop for discarded fragments.
-uniform int u_reads;
-
-vec4 real_work(vec2 uv, vec4 tint) {
-    vec4 work = vec4(0.0);
-    for (int i = 0; i < u_reads; ++i) work = sheer_own_work(uv, tint);
-    return work;
-}
-
