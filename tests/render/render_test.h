@@ -1,7 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,16 +11,18 @@
 namespace sheer::test {
 
 /// The three kinds of context. GLFW needs a display, which the runner provides (Xvfb).
-inline std::vector<std::string> contexts() {
-    std::vector<std::string> all = {"egl", "osmesa"};
-    if (std::getenv("DISPLAY") != nullptr) all.emplace_back("glfw");
-    return all;
-}
+std::vector<std::string> contexts();
 
 inline std::unique_ptr<gl::Context> make_context(const std::string& kind) {
     gl::ContextRequest request;
     request.context = kind;
     return gl::create_context(request);
+}
+
+/// How many primitives f2bd draws between barriers if its picture is to be exact: on llvmpipe a fragment sees all that
+/// were drawn before, on a GPU only those of earlier batches.
+inline int exact_batch(const gl::Context& context) {
+    return context.device().software ? 0 : 1;
 }
 
 /// A scene and a target on a context, to run methods in.
