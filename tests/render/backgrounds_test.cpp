@@ -36,8 +36,8 @@ sheer::Run run_of(const json& layers, const json& methods, const std::string& fo
 /// After the nearer layer 0.25 of the light is left, under the threshold; the farther one is black, so over black it
 /// makes no difference that f2bd leaves it out. The transmittance should be 0.125 and is 0.25 with f2bd.
 TEST(Backgrounds, ALayerLeftOutShowsOverWhiteOnly) {
-    const sheer::Run run =
-        run_of({layer(0.7, 0, 0.5), layer(0.3, 0.5, 0.75)}, {"b2f", {{"id", "f2bd"}, {"threshold", 0.5}}}, "rgba32f");
+    const sheer::Run run = run_of({layer(0.7, 0, 0.5), layer(0.3, 0.5, 0.75)},
+                                  {"b2f", {{"id", "f2bd"}, {"threshold", 0.5}, {"batch", 1}}}, "rgba32f");
     const json exact = run.results[0].metrics->values, early = run.results[1].metrics->values;
     EXPECT_EQ(early["rmse"], 0.0) << "the spec's background is black";
     EXPECT_EQ(early["linear"]["rmse"], 0.0);
@@ -53,7 +53,7 @@ TEST(Backgrounds, ALayerLeftOutShowsOverWhiteOnly) {
 TEST(Backgrounds, AreHiddenByOpaqueGeometry) {
     const sheer::Run run = run_of(
         {layer(0.8, 0.5, 1, true, {0.5, 0, 1, 1}), layer(0.7, 0, 0.5, false, {0, 0, 0.5, 1}), layer(0.3, 0.5, 0.75)},
-        {{{"id", "f2bd"}, {"threshold", 0.5}}}, "rgba32f");
+        {{{"id", "f2bd"}, {"threshold", 0.5}, {"batch", 1}}}, "rgba32f");
     const json found = run.results[0].metrics->values["over_backgrounds"];
     EXPECT_NEAR(found["white"].get<double>(), 0.125 * std::sqrt(0.5), 1e-6);
     EXPECT_EQ(found["black"], 0.0);
@@ -101,7 +101,12 @@ TEST(Backgrounds, RestartedMethodsAreAsNew) {
         const auto make = [&] {
             return find_method(method.id)->make({*context, context->gl(), drawn, target}, method.parameters);
         };
-        const auto used = make();
+        std::unique_ptr<Method> used;
+        try {
+            used = make();
+        } catch (const Unsupported&) {
+            continue;
+        }
         target.set_background(spec.image.background);
         const Image before = frame(*used);
         target.set_background({1, 1, 1});

@@ -88,7 +88,7 @@ TEST(Explanation, BlendingTellsItsOrder) {
 
 /// What is left: 0.5, then 0.125.
 TEST(Explanation, DiscardingTellsWhereItSaturated) {
-    const Explained f2bd(four, {{"id", "f2bd"}, {"threshold", 0.2}});
+    const Explained f2bd(four, {{"id", "f2bd"}, {"threshold", 0.2}, {"batch", 1}});
     EXPECT_EQ(f2bd["blended"], json({1, 2}));
     EXPECT_EQ(f2bd["discarded"], json({3, 4}));
     EXPECT_EQ(f2bd["saturated_at"], 2);
@@ -237,12 +237,19 @@ TEST(Explanation, IsOfThePixelThatAWholeFrameHas) {
         const Spec spec = make_spec(scene, methods, 40);
         Stage stage(*context, spec, spec.image.format);
         std::vector<Image> pictures;
-        for (const MethodSpec& method : spec.methods) pictures.push_back(stage.picture(method));
+        for (const MethodSpec& method : spec.methods) {
+            try {
+                pictures.push_back(stage.picture(method));
+            } catch (const Unsupported&) {
+                pictures.emplace_back();
+            }
+        }
         for (const auto& [x, y] : {std::pair{20, 20}, {13, 30}, {39, 7}}) {
             const PixelStack stack = explain_pixel(spec, *context, assets, x, y);
             for (std::size_t i = 0; i < spec.methods.size(); ++i) {
                 SCOPED_TRACE(spec.methods[i].label + " " + std::to_string(x) + ", " + std::to_string(y));
-                ASSERT_TRUE(stack.methods[i].value) << stack.methods[i].reason;
+                ASSERT_EQ(stack.methods[i].value.has_value(), !pictures[i].rgba.empty()) << stack.methods[i].reason;
+                if (!stack.methods[i].value) continue;
                 const float* pixel = pictures[i].pixel(x, y);
                 for (std::size_t channel = 0; channel < 3; ++channel)
                     EXPECT_NEAR((*stack.methods[i].value)[channel], pixel[channel], 1e-6);

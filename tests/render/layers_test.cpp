@@ -108,6 +108,11 @@ bool is_wanted(const MethodRow& row) {
     return only == nullptr || row.id == only;
 }
 
+/// GPUs may round what they blend to the next but one level.
+Bound on_a_gpu(const Bound& bound) {
+    return [bound](const Stack& stack, PixelFormat format) { return 2 * bound(stack, format); };
+}
+
 void expect_formulas(const Case& test_case, const nlohmann::json& scene) {
     const auto context = make_context(test_case.context);
     const Spec spec = make_spec(scene, {"exact"}, test_case.size_px, test_case.format);
@@ -120,8 +125,15 @@ void expect_formulas(const Case& test_case, const nlohmann::json& scene) {
             const MethodVariant& variant = row.variants[i];
             if (variant.software_only && !context->device().software) continue;
             if (test_case.layers > variant.most_layers) continue;
-            const Worst worst = worst_pixel(stage.picture(of_row.methods[i]), compositor,
-                                            row.formula(variant.parameters), variant.bound, spec.image.format);
+            std::optional<Image> picture;
+            try {
+                picture = stage.picture(of_row.methods[i]);
+            } catch (const Unsupported&) {
+                continue;
+            }
+            const Worst worst =
+                worst_pixel(*picture, compositor, row.formula(variant.parameters),
+                            context->device().software ? variant.bound : on_a_gpu(variant.bound), spec.image.format);
             EXPECT_EQ(worst.bounds, 0) << row.id << ' ' << variant.parameters << ", seed " << seed_of(test_case) << ": "
                                        << worst.text;
         }

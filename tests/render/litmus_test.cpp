@@ -132,7 +132,11 @@ TEST_P(Litmus, AsItsTheoryPredicts) {
         for (const std::string& scene : expectation.scenes)
             for (const json& parameters : GetParam().litmus->variants) {
                 SCOPED_TRACE(GetParam().row->id + " " + parameters.dump() + " on " + scene);
-                expect(expectation, scene, parameters);
+                try {
+                    expect(expectation, scene, parameters);
+                } catch (const Unsupported& unsupported) {
+                    GTEST_SKIP() << unsupported.what();
+                }
             }
 }
 
@@ -249,9 +253,13 @@ TEST_F(LitmusDetails, NoPassKeepsTheDepthRangeOfThoseBefore) {
     for (const MethodInfo& method : all_methods()) {
         const json only_id = {{"id", method.id}};
         m_context->gl().DepthRange(0, 1);
-        const Image expected = picture(scene, only_id);
-        m_context->gl().DepthRange(1, 1);
-        EXPECT_EQ(greatest_difference(picture(scene, only_id), expected), 0) << method.id;
+        try {
+            const Image expected = picture(scene, only_id);
+            m_context->gl().DepthRange(1, 1);
+            EXPECT_EQ(greatest_difference(picture(scene, only_id), expected), 0) << method.id;
+        } catch (const Unsupported&) {
+            // The device lacks something that this method needs.
+        }
     }
 }
 

@@ -28,6 +28,10 @@ json in_order(const json& layers, const std::vector<std::size_t>& order) {
 
 class Mlab : public testing::Test {
   protected:
+    void SetUp() override {
+        if (!m_context->has_extension("GL_EXT_shader_framebuffer_fetch")) GTEST_SKIP() << "it needs framebuffer fetch";
+    }
+
     const std::unique_ptr<gl::Context> m_context = make_context("egl");
 };
 
