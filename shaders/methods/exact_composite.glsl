@@ -3,6 +3,7 @@ uniform sampler2D u_opaque;
 layout(location = 0) out vec4 o_color;  // no blending: the target's rounding is the only one
 
 void main() {
+    if (gl_HelperInvocation) return;
     vec3 color = vec3(0.0);
     float transmittance = 1.0;
     for (uint link = heads[pixel_number()]; link != 0u; link = next_of(link)) {

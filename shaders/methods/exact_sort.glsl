@@ -4,6 +4,8 @@ uniform int u_merges;
 
 // No color output: the color mask is off.
 void main() {
+    // A device's helpers beyond the last row or column would follow a list that another pixel is sorting.
+    if (gl_HelperInvocation) return;
     uint pixel = pixel_number();
     uint head = heads[pixel];
     uint run = u_run;

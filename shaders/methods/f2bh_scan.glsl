@@ -8,6 +8,8 @@ uniform sampler2D u_accumulation;
 uniform float u_threshold;
 
 void main() {
+    // Beyond an odd last row or column a device runs helpers, which would count on without end: their tile has no size.
+    if (gl_HelperInvocation) return;
     ivec2 tile = ivec2(gl_FragCoord.xy), corner_px = tile * TILE_PX;
     ivec2 size_px = min(textureSize(u_accumulation, 0) - corner_px, TILE_PX);
     uint pixels = uint(size_px.x * size_px.y), closed = texelFetch(u_closed_before, tile, 0).r;
