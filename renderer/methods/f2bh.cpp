@@ -3,7 +3,8 @@
 // VIS 2003), pixels with less than `threshold` of the transmittance left are written to the nearest depth, where the
 // early depth test rejects all later fragments. Then each tile without an open pixel is closed: it is never marked
 // again, and primitives whose tiles are all closed are dropped by their vertex stage before anything is rasterised.
-// Nothing is read back, so the device never waits for the host.
+// What is saturated within a batch is discarded as in F2BD, so that few marks suffice. Nothing is read back, so the
+// device never waits for the host.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +18,11 @@ namespace sheer {
 namespace {
 
 struct F2bhParameters {
+    enum class Within { nothing, discards };
+
     double threshold = 0.01;
-    std::size_t first_batch = 8;
+    Within within = Within::discards;
+    std::size_t first_batch = 64;
     double growth = 1.25;
     std::size_t tile_px = 16;
 
@@ -26,6 +30,10 @@ struct F2bhParameters {
         return ParamTable<F2bhParameters>()
             .number(&F2bhParameters::threshold, "threshold",
                     "a pixel is closed when less than this transmittance is left; 0 closes none", "", 0, 1)
+            .choice(&F2bhParameters::within, "within_batch",
+                    "what stops a fragment whose pixel was saturated within its batch: nothing, or it reads the "
+                    "transmittance like f2bd and is discarded",
+                    {{"nothing", Within::nothing}, {"discard", Within::discards}})
             .integer(&F2bhParameters::first_batch, "first_batch", "primitives before the first mark", "", 1, 1000000)
             .number(&F2bhParameters::growth, "growth", "primitives of a batch by those of the batch before", "", 1, 16)
             .integer(&F2bhParameters::tile_px, "tile_px",
@@ -68,7 +76,9 @@ class OpenTiles {
     const gl::Texture& closed_before() const { return m_closed_before; }
 
     /// Opens all.
-    void reset() const {
+    void reset() {
+        if (!m_scans_since_reset) return;
+        m_scans_since_reset = false;
         {
             const Pass clearing(m_gl, m_scanned, m_columns, m_rows);
             clearing.clear_color(glm::uvec4(0), 0);
@@ -76,7 +86,8 @@ class OpenTiles {
         sum();
     }
     /// Closes those in which this accumulation has no open pixel any more.
-    void scan(const Accumulation& accumulation) const {
+    void scan(const Accumulation& accumulation) {
+        m_scans_since_reset = true;
         {
             const Pass scanning(m_gl, m_scanned, m_columns, m_rows);
             m_scan.program().set_texture("u_accumulation", accumulation.readable_alpha());
@@ -143,6 +154,7 @@ class OpenTiles {
     gl::Texture m_tile_rects, m_closed_before, m_row_sums, m_sums;
     FullscreenPass m_scan, m_sum_rows, m_sum_columns;
     gl::Framebuffer m_scanned, m_summed_rows, m_summed;
+    bool m_scans_since_reset = true;
 };
 
 class ClosingTiles : public OpaqueFirst {
@@ -150,16 +162,16 @@ class ClosingTiles : public OpaqueFirst {
     ClosingTiles(const MethodSetup& setup, const F2bhParameters& parameters)
         : OpaqueFirst(setup),
           m_parameters(parameters),
+          m_counts_early(parameters.within == F2bhParameters::Within::discards && !setup.context.device().software),
           m_accumulation(setup.gl, setup.target, setup.target.format()),
           m_tiles(setup, static_cast<int>(parameters.tile_px), static_cast<float>(parameters.threshold)),
-          m_program(setup.scene.make_skipping_program("f2bh", gl::shader_file("methods/f2b.glsl"),
-                                                      gl::shader_file("methods/f2bh_skip.vert.glsl"),
-                                                      "layout(early_fragment_tests) in;\n")),
+          m_program(make_program(setup, parameters)),
           m_mark(setup.gl, "f2bh: mark", gl::shader_file("methods/f2bh_mark.vert.glsl"),
                  glsl_version + gl::shader_file("common/saturated.glsl")),
           m_no_attributes(gl::make_vertex_array(setup.gl, "f2bh: mark")),
           m_depth_only(
               gl::make_framebuffer(setup.gl, "f2bh: mark", std::span<const GLuint>(), setup.target.depth().id())) {
+        m_program.set("u_threshold", static_cast<float>(parameters.threshold));
         m_mark.set("u_threshold", static_cast<float>(parameters.threshold));
         m_mark.set("u_tiles", m_tiles.size(setup.target));
         m_mark.set("u_all_closed", m_tiles.pixels_of_a_tile());
@@ -182,14 +194,17 @@ class ClosingTiles : public OpaqueFirst {
 
     std::vector<PixelFact> explain(const PixelTrace& trace) const override {
         const PixelTrace::Draws draws = trace.of(m_program);
-        const std::vector<std::size_t> rejected = draws.failed();
+        std::vector<std::size_t> blended = draws.passed(), rejected = draws.failed();
+        if (m_counts_early) reject_saturated(trace, blended, rejected);
         std::vector<PixelFact> facts = {
-            fragments_fact("blended", draws.passed(),
-                           "The fragments that were shaded, including those shaded in vain between saturation and the "
-                           "mark."),
-            fragments_fact("rejected", rejected,
-                           "The fragments that failed the depth test against the mark; those of dropped "
-                           "primitives never were.")};
+            fragments_fact(
+                "blended", blended,
+                "The fragments that were blended, including those between saturation and the mark if nothing "
+                "stops them within a batch."),
+            fragments_fact(
+                "rejected", rejected,
+                "The fragments whose pixel was closed, by a mark or within their own batch; those of dropped "
+                "primitives never were.")};
         add_accumulated(facts, draws.color);
         return facts;
     }
@@ -197,7 +212,32 @@ class ClosingTiles : public OpaqueFirst {
     std::int64_t memory_bytes() const override { return gl::memory_bytes_of(m_accumulation, m_tiles); }
 
   private:
-    void draw_batches() const {
+    static gl::Program make_program(const MethodSetup& setup, const F2bhParameters& parameters) {
+        const bool discards = parameters.within == F2bhParameters::Within::discards;
+        return setup.scene.make_skipping_program("f2bh",
+                                                 gl::shader_file(discards ? "methods/f2bd.glsl" : "methods/f2b.glsl"),
+                                                 gl::shader_file("methods/f2bh_skip.vert.glsl"),
+                                                 "layout(early_fragment_tests) in;\n"
+                                                 "#define SHEER_FRAMEBUFFER_FETCH 0\n"
+                                                 "#define SHEER_SEPARATE_ALPHA 0\n"
+                                                 "#define SHEER_IF_ELSE 1\n"
+                                                 "#define SHEER_INVERTED 1\n");
+    }
+
+    /// Moves to `rejected` what the device counted as passed before its shader discarded it.
+    void reject_saturated(const PixelTrace& trace, std::vector<std::size_t>& blended,
+                          std::vector<std::size_t>& rejected) const {
+        double transmittance = 1;
+        const auto first = std::ranges::find_if(blended, [&](std::size_t number) {
+            if (transmittance < m_parameters.threshold) return true;
+            transmittance *= 1 - trace.alpha(number);
+            return false;
+        });
+        rejected.insert(rejected.begin(), first, blended.end());
+        blended.erase(first, blended.end());
+    }
+
+    void draw_batches() {
         const std::size_t count = m_scene.transparent_count();
         auto size = static_cast<double>(m_parameters.first_batch);
         for (std::size_t first = 0; first < count; size *= m_parameters.growth) {
@@ -205,6 +245,10 @@ class ClosingTiles : public OpaqueFirst {
             {
                 const Pass drawing = m_accumulation.blending();
                 m_tiles.set_textures(m_program);
+                if (m_parameters.within == F2bhParameters::Within::discards) {
+                    m_program.set_texture("u_alpha", m_accumulation.readable_alpha());
+                    m_gl.TextureBarrier();
+                }
                 m_scene.draw_transparent(m_program, Order::near_to_far, first, batch);
             }
             first += batch;
@@ -226,6 +270,7 @@ class ClosingTiles : public OpaqueFirst {
     }
 
     F2bhParameters m_parameters;
+    bool m_counts_early;  ///< whether an occlusion query counts fragments that an early-tested shader then discards
     Accumulation m_accumulation;
     OpenTiles m_tiles;
     gl::Program m_program, m_mark;
@@ -245,9 +290,10 @@ MethodInfo method_f2bh() {
                 "F2B in growing batches; saturated pixels are closed to the depth test, and primitives that only "
                 "meet closed tiles are dropped before rasterisation.",
             .paper = "Sheer, after section 4 of Vlcek, Havel, Herout, SCCG 2010, and depth marks",
-            .good_at = "Heavy overdraw: it shades little more than the fragments that are needed; no feedback, no "
-                       "read-back.",
-            .bad_at = "Scenes that never saturate pay for the marks; few layers or cheap shading.",
+            .good_at = "Heavy overdraw: it shades little more than the fragments that are needed, starts shaders for "
+                       "few others, and reads nothing back.",
+            .bad_at = "Scenes that never saturate pay for the marks; few layers or cheap shading; feedback needs a "
+                      "barrier per batch.",
             .memory = "one pixel of the image format, 12 bytes per tile and 4 per primitive",
             .saturation_parameter = "threshold",
         },
