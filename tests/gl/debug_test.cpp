@@ -82,7 +82,7 @@ TEST_P(EachDebugContext, SeverityDecidesWhatIsKeptAndWhereItIsLogged) {
     EXPECT_THAT(error(), AllOf(HasSubstr("a low error"), Not(HasSubstr("a high one"))));
     const std::string name = context().device().name;
     EXPECT_THAT(log.text(), Not(HasSubstr("a notification")));
-    EXPECT_THAT(log.text(), HasSubstr("info " + name + ": a low one"));
+    EXPECT_THAT(log.text(), HasSubstr("debug " + name + ": a low one"));
     EXPECT_THAT(log.text(), HasSubstr("warning " + name + ": a medium one"));
     EXPECT_THAT(log.text(), HasSubstr("debug " + name + ": a slow path"));
     EXPECT_THAT(log.text(), HasSubstr("error " + name + ": a high one"));
