@@ -4,9 +4,10 @@
 
 #include <map>
 
+#include "renderer/compare/change.h"
 #include "renderer/compare/contenders.h"
+#include "renderer/compare/looks.h"
 #include "renderer/compare/progress.h"
-#include "renderer/compare/reference.h"
 #include "renderer/compare/workbench.h"
 #include "renderer/counting/loop_check.h"
 #include "renderer/counting/needed.h"
@@ -17,10 +18,12 @@ namespace sheer {
 namespace {
 
 /// Throws SpecError if the user's own shading has loops that do not end, in any method that draws with it.
-void check_all_loops(const Spec& spec, Scene& scene, const Target& target, Workbench& bench) {
-    for (const MethodSpec& method : spec.methods)
+void check_all_loops(const Spec& spec, const Looks& looks, const Target& target, Workbench& bench) {
+    for (const MethodSpec& method : spec.methods) {
+        Scene& scene = *looks.of(method).scene;
         check_loops_of(method.label, bench.gl(), scene,
                        [&] { bench.render(*bench.make_method(method, scene, target), false); });
+    }
 }
 
 /// A comparison without transparent fragments must not look as if all methods agreed.
@@ -34,10 +37,11 @@ void look_for_something(const Spec& spec, const Scene& scene, const Geometry& ge
     if (!run.nothing_drawn.empty()) add_note(run.notes, {"nothing-transparent", run.nothing_drawn, "/scene"});
 }
 
-/// The fragments that a method needs depend only on its threshold: `known` has the counts made so far.
-void count_needed_by(const MethodSpec& method, const Scene& scene, const Target& target,
-                     std::map<float, NeededFragments>& known, Workbench& bench, const Run& run,
-                     FragmentCounts& fragments) {
+/// Counts made so far, by the scene in a look and the threshold: on nothing else do the needed fragments depend.
+using KnownNeeded = std::map<std::pair<const Scene*, float>, NeededFragments>;
+
+void count_needed_by(const MethodSpec& method, const Scene& scene, const Target& target, KnownNeeded& known,
+                     Workbench& bench, const Run& run, FragmentCounts& fragments) {
     const std::optional<double> saturation = find_method(method.id)->saturation_of(method.parameters);
     if (!saturation) {
         fragments.needed = run.overdraw;
@@ -45,20 +49,21 @@ void count_needed_by(const MethodSpec& method, const Scene& scene, const Target&
     }
     fragments.no_needed_reason = why_needed_is_unknown(scene, run.overdraw);
     if (!fragments.no_needed_reason.empty()) return;
-    const auto threshold = static_cast<float>(*saturation);
-    if (!known.contains(threshold))
+    const std::pair key(&scene, static_cast<float>(*saturation));
+    if (!known.contains(key))
         bench.frame(false, [&](gl::FrameTimer& timer) {
-            known[threshold] = count_needed(bench.gl(), scene, target, threshold, timer);
+            known[key] = count_needed(bench.gl(), scene, target, key.second, timer);
         });
-    fragments.needed = known[threshold].needed;
-    fragments.saturation = known[threshold].saturation;
+    fragments.needed = known[key].needed;
+    fragments.saturation = known[key].saturation;
 }
 
-void count_fragments(Scene& scene, const Target& target, EarlyTests& early_tests, Contenders& contenders,
+void count_fragments(const Looks& looks, const Target& target, EarlyTests& early_tests, Contenders& contenders,
                      Workbench& bench, const Run& run) {
-    std::map<float, NeededFragments> needed;
+    KnownNeeded needed;
     contenders.for_each(
         counting_begin, metrics_begin, "counting the fragments of", [&](Method& method, MethodResult& result) {
+            Scene& scene = *looks.of(result.method).scene;
             FragmentCounts& fragments = result.fragments;
             static_cast<ShadingCount&>(fragments) =
                 count_shaded(bench.gl(), scene, target, early_tests, [&] { bench.render(method, false); });
@@ -68,9 +73,10 @@ void count_fragments(Scene& scene, const Target& target, EarlyTests& early_tests
 
 /// While the methods exist, since they are rendered over other backgrounds; one at a time, to keep few pictures in
 /// memory.
-void measure(const Backdrops& reference_over, Target& target, Contenders& contenders, Workbench& bench,
-             const Run& run) {
+void measure(const Looks& looks, Target& target, Contenders& contenders, Workbench& bench) {
     contenders.for_each(metrics_begin, 1, "measuring", [&](Method& method, MethodResult& result) {
+        const Look& look = looks.of(result.method);
+        const Run& run = *look.run;
         result.no_metrics_reason = find_method(result.method.id)->no_metrics_reason;
         if (result.no_metrics_reason.empty() && run.reference_status != report::ResultStatus::ok)
             result.no_metrics_reason = fmt::format("the reference {} is {}: {}", run.reference.id,
@@ -78,7 +84,8 @@ void measure(const Backdrops& reference_over, Target& target, Contenders& conten
         if (!result.no_metrics_reason.empty()) return;
         const Backdrops over = bench.over_backdrops(method, target, result.image);
         result.metrics =
-            compute_metrics(run.reference_image, result.image, &reference_over, &over, &run.reference_as_shown);
+            compute_metrics(run.reference_image, result.image, &look.reference_over, &over, &run.reference_as_shown);
+        if (!look.changes.empty()) result.own_reference = run.reference_as_shown;
     });
 }
 
@@ -88,26 +95,26 @@ Run compare_point(const Spec& spec, gl::Context& context, AssetReader& assets, c
     Workbench bench(spec, context, progress, run.notes);
     EarlyTests early_tests(context);
     bench.tell(0, 0, 0, 1, "building the scene");
-    const Geometry geometry = build_geometry(spec.scene, spec.image, assets);
-    Scene scene(context.gl(), geometry, spec.scene);
-    check_loops(context.gl(), scene, spec.image);
+    const Geometry geometry = build_geometry_of_looks(spec, assets);
+    Looks looks(spec, context.gl(), geometry);
     bench.check("building the scene");
     run.notes = geometry.notes;
-    run.files = source_files(spec.scene, assets);
+    run.files = source_files_of(spec, assets);
 
-    const Backdrops reference_over = render_reference(spec, scene, bench, run);
+    looks.render_references(spec, bench, run);
     Target target(context.gl(), spec.image, spec.image.format);
-    look_for_something(spec, scene, geometry, target, bench, run);
-    check_all_loops(spec, scene, target, bench);
+    look_for_something(spec, looks.own_scene(), geometry, target, bench, run);
+    check_all_loops(spec, looks, target, bench);
 
-    Contenders contenders(spec, scene, target, bench, run);
+    Contenders contenders(spec, looks, target, bench, run);
     contenders.make();
     contenders.prepare_sorting(geometry);
     contenders.time();
-    count_fragments(scene, target, early_tests, contenders, bench, run);
+    count_fragments(looks, target, early_tests, contenders, bench, run);
     contenders.for_each(metrics_begin, metrics_begin, "asking",
                         [&](Method& method, MethodResult& result) { result.findings = bench.findings(method); });
-    measure(reference_over, target, contenders, bench, run);
+    measure(looks, target, contenders, bench);
+    compare_with_counterparts(run);
     return run;
 }
 

@@ -27,6 +27,13 @@ struct FragmentCounts : ShadingCount {
         saturation;  ///< the fragment that saturated the pixel, from 1; of methods with a threshold
 };
 
+/// The picture of a method with its own look, compared with the same method's without it.
+struct PictureChange {
+    std::string from;  ///< label of the other one
+    bool is_identical = false;
+    Metrics metrics;
+};
+
 /// The result of one method at one point.
 struct MethodResult {
     MethodSpec method;
@@ -39,6 +46,9 @@ struct MethodResult {
         sort_ms;  ///< wall time of sorting for each of these frames (DepthSort); empty if there was none
     std::optional<Metrics> metrics;  ///< absent if the method has none
     std::string no_metrics_reason;
+    std::optional<PictureChange> change;  ///< only if the method has its own look
+    std::string no_change_reason;
+    Image own_reference;            ///< of a method with its own look: the reference in that look, as shown
     std::int64_t memory_bytes = 0;  ///< GL objects that the method made for its own use
     FragmentCounts fragments;
     nlohmann::json findings = nlohmann::json::object();  ///< see Method::findings

@@ -23,7 +23,7 @@ void Contenders::drop_failed() {
 }
 
 std::unique_ptr<Method> Contenders::make_warm(const MethodSpec& method) {
-    auto made = m_bench.make_method(method, m_scene, m_target);
+    auto made = m_bench.make_method(method, *m_looks.of(method).scene, m_target);
     for (int frame = 0; frame < m_spec.timing.warmup; ++frame) m_bench.render(*made, false);
     return made;
 }
@@ -39,7 +39,8 @@ void Contenders::make() {
             auto method = make_warm(result.method);
             result.image = m_target.read();
             result.memory_bytes = method->memory_bytes();
-            result.sorts = find_method(result.method.id)->sorts(m_scene, result.method.parameters);
+            result.sorts =
+                find_method(result.method.id)->sorts(*m_looks.of(result.method).scene, result.method.parameters);
             m_all.push_back({std::move(method), &result, false});
         });
         if (label == m_spec.baseline && result.status == report::ResultStatus::ok)

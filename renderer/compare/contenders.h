@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/compare/looks.h"
 #include "renderer/compare/workbench.h"
 #include "renderer/core/random.h"
 #include "renderer/scene/depth_sort.h"
@@ -16,8 +17,8 @@ namespace sheer {
 class Contenders {
   public:
     /// All references must outlive it; `run` has the methods' results.
-    Contenders(const Spec& spec, const Scene& scene, const Target& target, Workbench& bench, Run& run)
-        : m_spec(spec), m_scene(scene), m_target(target), m_bench(bench), m_run(run) {}
+    Contenders(const Spec& spec, const Looks& looks, const Target& target, Workbench& bench, Run& run)
+        : m_spec(spec), m_looks(looks), m_target(target), m_bench(bench), m_run(run) {}
 
     /// Renders each method until it is warm, and keeps its picture. The baseline is made twice: how much it differs
     /// from itself is the noise with which every other difference is compared.
@@ -48,7 +49,7 @@ class Contenders {
     void drop_failed();
 
     const Spec& m_spec;
-    const Scene& m_scene;
+    const Looks& m_looks;
     const Target& m_target;
     Workbench& m_bench;
     Run& m_run;

@@ -6,7 +6,7 @@
 #include <bit>
 #include <tuple>
 
-#include "renderer/counting/loop_check.h"
+#include "renderer/compare/looks.h"
 #include "renderer/methods/shared/method.h"
 #include "renderer/passes/pass.h"
 #include "renderer/passes/texel.h"
@@ -173,14 +173,18 @@ void weigh(PixelStack& stack) {
 }
 
 PixelStack explain_pixel(const Spec& spec, gl::Context& context, AssetReader& assets, int x, int y) {
-    const Geometry geometry = build_geometry(spec.scene, spec.image, assets);
-    Scene scene(context.gl(), geometry, spec.scene);
-    check_loops(context.gl(), scene, spec.image);
+    const Geometry geometry = build_geometry_of_looks(spec, assets);
+    Looks looks(spec, context.gl(), geometry);
     const Target target(context.gl(), spec.image, PixelFormat::rgba32f);
-    PixelStack stack = FragmentReader(context, scene, target, x, y).run();
+    const auto stack_in = [&](const Scene& scene) { return FragmentReader(context, scene, target, x, y).run(); };
+    PixelStack stack = stack_in(looks.own_scene());
     weigh(stack);
-    Explainer explainer(spec, context, scene, stack, x, y);
-    for (const MethodSpec& method : spec.methods) stack.methods.push_back(explainer.explain(method));
+    for (const MethodSpec& method : spec.methods) {
+        Scene& scene = *looks.of(method).scene;
+        const bool is_own = &scene == &looks.own_scene();
+        stack.methods.push_back(
+            Explainer(spec, context, scene, is_own ? stack : stack_in(scene), x, y).explain(method));
+    }
     return stack;
 }
 

@@ -47,7 +47,7 @@ void check_loops(const gl::Functions& gl, const Scene& scene, const ImageSpec& i
     const auto pixel = first - counts.begin();
     const auto pixels = std::ranges::count_if(counts, [](std::uint32_t count) { return count > 0; });
     throw SpecError(std::vector<FieldError>{
-        {glsl_shading_pointer,
+        {scene.glsl_pointer(),
          fmt::format("the loops of a fragment at pixel ({}, {}) do not end within {} iterations; {} pixels have such "
                      "fragments",
                      pixel % image.width_px, pixel / image.width_px, iterations_per_fragment, pixels)}});
@@ -70,7 +70,7 @@ void check_loops_of(const std::string& name, const gl::Functions& gl, Scene& sce
     gl.GetNamedBufferSubData(report.id(), 0, sizeof any_refused, &any_refused);
     if (any_refused == 0) return;
     throw SpecError(std::vector<FieldError>{
-        {glsl_shading_pointer, fmt::format("the loops of a fragment do not end within {} iterations when {} draws it",
+        {scene.glsl_pointer(), fmt::format("the loops of a fragment do not end within {} iterations when {} draws it",
                                            iterations_per_fragment, name)}});
 }
 

@@ -9,7 +9,7 @@
 namespace sheer {
 
 /// Runs the user's own shading once for every fragment of the scene, hidden ones too. Throws SpecError at
-/// /scene/shading/glsl if the loops of any need more than iterations_per_fragment. Nothing is drawn if there are no
+/// Scene::glsl_pointer() if the loops of any need more than iterations_per_fragment. Nothing is drawn if there are no
 /// loops.
 void check_loops(const gl::Functions& gl, const Scene& scene, const ImageSpec& image);
 

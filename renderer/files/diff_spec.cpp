@@ -44,6 +44,13 @@ void compare_values(const std::string& pointer, const json& a, const json& b, st
     }
 }
 
+/// A method with its own shading or texture has another picture than one without.
+void mark_looks(const std::string& method_pointer, std::vector<FieldDifference>& found) {
+    for (FieldDifference& one : found)
+        if (one.pointer == method_pointer + "/shading" || one.pointer == method_pointer + "/texture")
+            one.is_in_both = true;
+}
+
 const json* labelled(const json& methods, const std::string& label) {
     const auto found = std::ranges::find_if(methods, [&](const json& method) { return method["label"] == label; });
     return found == methods.end() ? nullptr : &*found;
@@ -54,6 +61,7 @@ void compare_methods(const json& a, const json& b, std::vector<FieldDifference>&
         const std::string pointer = fmt::format("/spec/methods/{}", i);
         if (const json* other = labelled(b, a[i]["label"])) {
             compare_values(pointer, a[i], *other, found);
+            mark_looks(pointer, found);
         } else {
             found.push_back({{pointer, a[i], nullptr}, false});
         }

@@ -8,9 +8,6 @@
 
 namespace sheer {
 
-/// Where a spec has the user's own shading.
-inline constexpr const char* glsl_shading_pointer = "/scene/shading/glsl";
-
 inline constexpr std::size_t max_glsl_bytes = 64 * 1024;
 
 /// The limit for all loops of a fragment together. Below what drivers allow: llvmpipe silently leaves every loop of a

@@ -170,7 +170,24 @@ class RunWriter {
         } else {
             result.metrics.reason = of_method.no_metrics_reason;
         }
+        add_change(of_method, name, result);
         return result;
+    }
+
+    /// What the method's own look changes, and the pictures that only such a method has.
+    void add_change(const MethodResult& of_method, const std::string& name, Result& result) const {
+        result.change.reason = of_method.no_change_reason;
+        if (m_pictures && !of_method.own_reference.rgba.empty())
+            result.images["exact"] =
+                m_pictures->take(quantize(of_method.own_reference), picture_name(name, "exact.png"));
+        if (!of_method.change) return;
+        result.change.value = report::Change{.from = of_method.change->from,
+                                             .is_identical = of_method.change->is_identical,
+                                             .metrics = told_metrics(of_method.change->metrics),
+                                             .speedup = m_timings.change(of_method)};
+        if (!m_pictures) return;
+        for (const auto& [key, picture] : of_method.change->metrics.pictures)
+            result.images["change_" + key] = m_pictures->take(picture, picture_name(name, "change_" + key + ".png"));
     }
 
     /// The ideal time (that of f2b for only the needed fragments) over the method's own.
@@ -253,7 +270,9 @@ void decide(report::Check& check, const Quantity& quantity, const report::Run& r
     const std::optional<Measured> value = quantity.measure(result);
     if (!value) {
         // PSNR is null if the pictures are identical, which passes any minimum.
-        if (check.metric == "psnr" && result.metrics && !check.max) return end(passed, "");
+        const bool is_identical =
+            (check.metric == "psnr" && result.metrics) || (check.metric == "change.psnr" && result.change);
+        if (is_identical && !check.max) return end(passed, "");
         return end(failed, quantity.no_value_reason(result));
     }
     const double least = check.min.value_or(-std::numeric_limits<double>::infinity()),

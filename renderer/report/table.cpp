@@ -97,6 +97,27 @@ std::string time_table(const report::Run& run) {
     return aligned(rows);
 }
 
+/// What the looks that methods bring change in them.
+std::string change_lines(const report::Run& run) {
+    std::string text;
+    for (const Result& result : run.results) {
+        if (!result.change) {
+            if (!result.change.reason.empty())
+                text += fmt::format("Change by {}: not known, as {}.\n", result.label, result.change.reason);
+            continue;
+        }
+        const report::Change& change = *result.change;
+        text += fmt::format("Change from {} to {}: the picture is ", change.from, result.label);
+        text += change.is_identical
+                    ? "identical"
+                    : fmt::format("different, mean FLIP {}, {} pixels", number(result, "change.flip.mean", 4),
+                                  number(result, "change.differing_pixels", 0));
+        text += fmt::format("; speed {}{}.\n", ratio_text(change.speedup),
+                            change.speedup ? ", " + word_of(change.speedup->verdict) : "");
+    }
+    return text;
+}
+
 bool sorts(const Result& result) {
     return result.timing && result.timing->sort;
 }
@@ -175,6 +196,7 @@ std::string report_table(const Report& report) {
         text += device.software ? fragments + "\n" + times : times + "\n" + fragments;
         text += "\n";
         text += captions(run, report.baseline());
+        text += change_lines(run);
         if (run.frontier)
             for (const std::string& sentence : run.frontier->sentences) text += sentence + "\n";
     }

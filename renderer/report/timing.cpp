@@ -6,8 +6,6 @@
 #include <cmath>
 #include <functional>
 
-#include "renderer/report/statistics.h"
-
 namespace sheer {
 
 namespace {
@@ -168,18 +166,40 @@ std::optional<report::Speedup> Timings::judged(const MethodResult& result, bool 
         return all;
     };
     const std::vector<double> theirs = taken(base->samples, base->sort_ms);
-    const std::vector<double> ratios = paired_ratios(theirs, taken(result.samples, result.sort_ms));
-    if (ratios.empty()) return std::nullopt;
     const std::vector<double> noise_ratios =
         paired_ratios(theirs, taken(m_run.baseline_again, m_run.baseline_again_sort_ms));
     const std::optional<NoiseFloor> noise =
         noise_ratios.empty() ? std::nullopt : std::optional(noise_floor(noise_ratios));
-    const Speedup speedup = judge_speedup(ratios, compared_in(m_run), noise);
+    std::optional<report::Speedup> speedup =
+        judged(theirs, taken(result.samples, result.sort_ms), compared_in(m_run), noise);
+    if (speedup && &result == base) speedup->reason = "it is the baseline";
+    return speedup;
+}
+
+std::optional<report::Speedup> Timings::judged(const std::vector<double>& theirs, const std::vector<double>& own,
+                                               std::size_t compared, const std::optional<NoiseFloor>& noise) const {
+    const std::vector<double> ratios = paired_ratios(theirs, own);
+    if (ratios.empty()) return std::nullopt;
+    const Speedup speedup = judge_speedup(ratios, compared, noise);
     return report::Speedup{.value = speedup.value,
                            .ci95 = interval_of(speedup.ci95),
                            .verdict = speedup.verdict,
-                           .reason = &result == base ? "it is the baseline" : speedup.reason,
-                           .compared = compared_in(m_run)};
+                           .reason = speedup.reason,
+                           .compared = compared};
+}
+
+OrReason<report::Speedup> Timings::change(const MethodResult& result) const {
+    const auto is_from = [&](const MethodResult& other) { return other.method.label == result.change->from; };
+    const auto from = std::ranges::find_if(m_run.results, is_from);
+    const auto changes =
+        std::ranges::count_if(m_run.results, [](const MethodResult& one) { return one.change.has_value(); });
+    const MethodResult* base = baseline();
+    const std::vector<double> noise_ratios =
+        base ? paired_ratios(times(base->samples), times(m_run.baseline_again)) : std::vector<double>();
+    auto speedup = judged(times(from->samples), times(result.samples), static_cast<std::size_t>(changes),
+                          noise_ratios.empty() ? std::nullopt : std::optional(noise_floor(noise_ratios)));
+    if (!speedup) return {{}, "the method took no time"};
+    return {std::move(speedup), ""};
 }
 
 }  // namespace sheer

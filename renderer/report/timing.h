@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/compare/compare.h"
+#include "renderer/report/statistics.h"
 #include "renderer/results/report.h"
 
 namespace sheer {
@@ -22,6 +23,8 @@ class Timings {
     OrReason<report::Speedup> speedup(const MethodResult& result) const;
     /// The same, if each frame of a method that sorts includes the sort: `speedup_with_sort`.
     OrReason<report::Speedup> speedup_with_sort(const MethodResult& result) const;
+    /// The time of the result from which `result.change` is measured, over its own.
+    OrReason<report::Speedup> change(const MethodResult& result) const;
     /// The number of rounds that the speedups need for an interval.
     std::size_t needed_rounds() const;
     /// Median time in ms.
@@ -32,6 +35,9 @@ class Timings {
     std::vector<double> times(const std::vector<gl::FrameSample>& samples) const;
     OrReason<report::TimeSummary> sort(const MethodResult& result) const;
     std::optional<report::Speedup> judged(const MethodResult& result, bool with_sort) const;
+    /// `theirs` and `own` are times round by round; `compared` such comparisons are made together.
+    std::optional<report::Speedup> judged(const std::vector<double>& theirs, const std::vector<double>& own,
+                                          std::size_t compared, const std::optional<NoiseFloor>& noise) const;
     OrReason<report::Speedup> or_reason(std::optional<report::Speedup> speedup, const MethodResult& result) const;
     std::string no_speedup_reason(const MethodResult& result) const;
     const MethodResult* baseline() const;

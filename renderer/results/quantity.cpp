@@ -151,17 +151,55 @@ Quantity memory() {
             .reason = [](const Result&) { return std::string(); }};
 }
 
+std::optional<Measured> value_in(const report::Metrics& metrics, const std::string& id, const std::string& name) {
+    const auto found = metrics.values.find(id);
+    if (found == metrics.values.end()) return std::nullopt;
+    const nlohmann::json value = name.empty()         ? *found
+                                 : found->is_object() ? found->value(name, nlohmann::json())
+                                                      : nlohmann::json();
+    if (!value.is_number()) return std::nullopt;
+    return exactly(value.get<double>());
+}
+
+/// Why a result has no `change`, if that is not known.
+constexpr const char* no_own_look = "the method has no shading or texture of its own";
+
+/// The same metric of what a look of its own changes in the method.
+Quantity of_change(const MetricInfo& metric, const MetricField& field) {
+    return {.name = "change." + full_name(metric, field),
+            .path = "change.metrics." + full_name(metric, field),
+            .unit = field.unit,
+            .summary = field.summary + "; from the picture of the same method in the other look",
+            .is_whole = field.kind == MetricField::Kind::count,
+            .measure = [id = metric.id, name = field.name](const Result& result) -> std::optional<Measured> {
+                if (!result.change) return std::nullopt;
+                return value_in(result.change->metrics, id, name);
+            },
+            .reason =
+                [](const Result& result) {
+                    return result.change || !result.change.reason.empty() ? result.change.reason : no_own_look;
+                }};
+}
+
+Quantity change_speedup() {
+    return {.name = "change.speedup",
+            .path = "change.speedup.value",
+            .unit = "×",
+            .summary = "Median of the times in the other look over those in its own, round by round",
+            .is_speedup = true,
+            .measure = [](const Result& result) -> std::optional<Measured> {
+                if (!result.change || !result.change->speedup) return std::nullopt;
+                return within(result.change->speedup->value, result.change->speedup->ci95);
+            },
+            .reason = [](const Result& result) -> std::string {
+                if (result.change) return result.change->speedup.reason;
+                return result.change.reason.empty() ? no_own_look : result.change.reason;
+            }};
+}
+
 Quantity of_metric(const MetricInfo& metric, const MetricField& field) {
     const auto measure = [id = metric.id, name = field.name](const Result& result) -> std::optional<Measured> {
-        if (!result.metrics) return std::nullopt;
-        const nlohmann::json& values = result.metrics->values;
-        const auto found = values.find(id);
-        if (found == values.end()) return std::nullopt;
-        const nlohmann::json value = name.empty()         ? *found
-                                     : found->is_object() ? found->value(name, nlohmann::json())
-                                                          : nlohmann::json();
-        if (!value.is_number()) return std::nullopt;
-        return exactly(value.get<double>());
+        return result.metrics ? value_in(*result.metrics, id, name) : std::nullopt;
     };
     return {.name = full_name(metric, field),
             .path = "metrics." + full_name(metric, field),
@@ -214,6 +252,10 @@ std::vector<Quantity> make_quantities() {
     for (const MetricInfo& metric : all_metrics())
         for (const MetricField& field : metric.fields)
             if (field.is_number()) all.push_back(of_metric(metric, field));
+    all.push_back(change_speedup());
+    for (const MetricInfo& metric : all_metrics())
+        for (const MetricField& field : metric.fields)
+            if (field.is_number()) all.push_back(of_change(metric, field));
     return all;
 }
 

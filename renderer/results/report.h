@@ -97,6 +97,14 @@ struct Metrics {
     nlohmann::json values = nlohmann::json::object();
 };
 
+/// A method with its own look, compared with the same method in another one.
+struct Change {
+    std::string from;
+    bool is_identical = false;
+    Metrics metrics;
+    OrReason<Speedup> speedup;
+};
+
 struct Result {
     std::string method, label;
     nlohmann::json parameters = nlohmann::json::object();
@@ -107,6 +115,7 @@ struct Result {
     OrReason<Speedup> speedup, speedup_with_sort;
     std::optional<Fragments> fragments;
     OrReason<Metrics> metrics;
+    OrReason<Change> change;
     std::optional<std::int64_t> memory_bytes;
     nlohmann::json findings = nlohmann::json::object();
     std::vector<Note> notes;
@@ -337,6 +346,8 @@ template <>
 const Description<report::NoiseFloor>& description_of();
 template <>
 const Description<report::Fragments>& description_of();
+template <>
+const Description<report::Change>& description_of();
 template <>
 const Description<report::Result>& description_of();
 template <>

@@ -201,6 +201,19 @@ const Description<report::Fragments>& description_of() {
 }
 
 template <>
+const Description<report::Change>& description_of() {
+    static const auto description =
+        Description<report::Change>("Change", "what a look of its own changes in a method: docs/ci.md")
+            .member(&report::Change::from, "from",
+                    "label of the method with the same id and parameters with which it is compared")
+            .member(&report::Change::is_identical, "identical", "whether the pictures are the same, bit for bit")
+            .member(&report::Change::metrics, "metrics", "of its picture, compared with the other one's")
+            .member(&report::Change::speedup, "speedup",
+                    "the other one's time over its own, round by round; `compared` is the number of such changes");
+    return description;
+}
+
+template <>
 const Description<report::Result>& description_of() {
     static const auto description =
         Description<report::Result>("Result", "the result of one method")
@@ -216,7 +229,10 @@ const Description<report::Result>& description_of() {
             .member(&report::Result::speedup_with_sort, "speedup_with_sort",
                     "the same, if each frame of a method that sorts includes the sort")
             .member(&report::Result::fragments, "fragments", "null if the status is not ok")
-            .member(&report::Result::metrics, "metrics", "of the picture, compared with the reference")
+            .member(&report::Result::metrics, "metrics",
+                    "of the picture, compared with the reference; in the method's own look, if it has one")
+            .member(&report::Result::change, "change",
+                    "what its own shading or texture changes in it; null for methods that have none")
             .member(&report::Result::memory_bytes, "memory_bytes", "of GL objects that the method made for its own use")
             .json(&report::Result::findings, "findings", "values that only this method reports", findings_schema)
             .member(&report::Result::notes, "notes", "reasons why this result is not as intended");

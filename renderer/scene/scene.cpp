@@ -71,12 +71,14 @@ glm::vec4 screen_rect(const Geometry& geometry, const Primitive& primitive) {
 
 }  // namespace
 
-Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters)
+Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters,
+             const std::string& pointer)
     : m_gl(gl),
       m_parallel(geometry.parallel),
       m_flat_tint(has_one_tint_a_triangle(geometry)),
       m_alpha_is_given(m_flat_tint && parameters.at("shading") == shadings::constant.name),
-      m_view_projection(geometry.view_projection) {
+      m_view_projection(geometry.view_projection),
+      m_glsl_pointer(pointer + "/shading/glsl") {
     m_vertex_source =
         glsl_version + define("SHEER_FLAT_TINT", m_flat_tint) + std::string(gl::shader_file("scenes/scene.vert.glsl"));
     make_shading(geometry, parameters);
@@ -222,20 +224,26 @@ void Scene::make_textures(const Geometry& geometry, const nlohmann::json& textur
     m_textures = make_repeating_array("scene textures");
     const nlohmann::json& image = texture.at("image");
     const auto size_px = texture.at("size").get<int>();
-    const bool eight_bit =
-        std::ranges::all_of(geometry.textures, [](const auto& named) { return named.second.eight_bit; });
+    const auto file_of = [&](int layer) {
+        const nlohmann::json& name = image.is_array() ? image[static_cast<std::size_t>(layer)] : image;
+        const auto found = geometry.textures.find({name.get<std::string>(), size_px});
+        return found == geometry.textures.end() ? nullptr : &found->second;
+    };
+    bool eight_bit = true;
+    for (int layer = 0; layer < texture_count; ++layer)
+        eight_bit = eight_bit && (file_of(layer) == nullptr || file_of(layer)->eight_bit);
     m_gl.TextureStorage3D(m_textures.id(), std::bit_width(static_cast<unsigned>(size_px)),
                           eight_bit ? GL_RGBA8 : GL_RGBA16F, size_px, size_px, texture_count);
     std::string last;
     std::vector<Image> levels;
     for (int layer = 0; layer < texture_count; ++layer) {
         const auto name = (image.is_array() ? image[static_cast<std::size_t>(layer)] : image).get<std::string>();
-        const auto file = geometry.textures.find(name);
-        if (file == geometry.textures.end()) {
+        const Picture* file = file_of(layer);
+        if (file == nullptr) {
             fill_painted_layer(layer, make_texture(name, size_px, layer));
             continue;
         }
-        if (name != last) levels = make_mipmaps(file->second.image);
+        if (name != last) levels = make_mipmaps(file->image);
         last = name;
         fill_layer(m_textures, layer, 0, levels);
     }
@@ -271,7 +279,7 @@ gl::Program Scene::build_program(std::string_view label, const std::string& vert
     } catch (const RenderError& error) {
         const std::string messages = user_messages(error.what());
         if (messages.empty()) throw;
-        throw SpecError(std::vector<FieldError>{{glsl_shading_pointer, "does not compile:\n" + messages}});
+        throw SpecError(std::vector<FieldError>{{m_glsl_pointer, "does not compile:\n" + messages}});
     }
 }
 

@@ -24,7 +24,9 @@ class DrawObserver {
 class Scene {
   public:
     /// `parameters` are the normalised ones of the spec, for shading and texture.
-    Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters);
+    /// `pointer` is where a spec has them, for errors of the user's own shading.
+    Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::json& parameters,
+          const std::string& pointer = "/scene");
 
     bool parallel() const { return m_parallel; }
     std::size_t transparent_count() const { return m_transparent_count; }
@@ -46,7 +48,7 @@ class Scene {
     /// main(). `prolog` comes right after #version: #extension and #define lines.
     /// main() sees what is in shaders/scenes/inputs.glsl; if it declares a uniform int u_first_triangle, this plus
     /// gl_PrimitiveID is a triangle's place in the order that is drawn, however many draws it is divided into.
-    /// Throws SpecError at /scene/shading/glsl if the user's own shading does not compile.
+    /// Throws SpecError at glsl_pointer() if the user's own shading does not compile.
     gl::Program make_program(std::string_view label, std::string_view method_source,
                              const std::string& prolog = {}) const;
     /// The same, but the primitives of which `skip_source`, GLSL of the vertex stage, says `bool sheer_skips(uint
@@ -57,6 +59,8 @@ class Scene {
     /// Whether the shading is the user's own and has loops, which count their iterations.
     /// (renderer/counting/loop_check.h.)
     bool counts_iterations() const { return m_counts_iterations; }
+    /// Where a spec has the user's own shading of this scene.
+    const std::string& glsl_pointer() const { return m_glsl_pointer; }
     /// While it is on, new programs set the first word of the storage buffer at loop_report_binding to 1 when an
     /// iteration is refused. They are not fit for timing.
     void report_loops(bool on) { m_reports_loops = on; }
@@ -98,6 +102,7 @@ class Scene {
     bool m_flat_tint;       ///< every triangle has one tint
     bool m_alpha_is_given;  ///< and all its fragments have its alpha
     glm::mat4 m_view_projection;
+    std::string m_glsl_pointer;
     std::string m_vertex_source;
     std::string m_shading_source;  ///< GLSL with inputs and real_work
     bool m_counts_iterations = false, m_reports_loops = false;

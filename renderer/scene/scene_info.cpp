@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "renderer/core/names.h"
 #include "renderer/glsl/own_shading.h"
@@ -22,52 +23,71 @@ const SceneInfo* find_scene(const std::string& id) {
 
 std::vector<Param> SceneInfo::all_parameters() const {
     std::vector<Param> all = parameters;
+    std::ranges::move(look_parameters(), std::back_inserter(all));
+    return all;
+}
+
+std::vector<Param> SceneInfo::look_parameters() const {
     std::vector<std::string> names;
     for (const Shading& shading : shadings::all) names.emplace_back(shading.name);
     if (!own_shading.empty()) names.push_back(own_shading);
     Param glsl =
         Param::text("glsl", "body of vec4 real_work(vec2 uv, vec4 tint), see docs/shading.md", "", max_glsl_bytes);
     glsl.min_length = 1;
-    all.push_back(Param::choice_or_object(
-        "shading", "what the fragment shader does: read textures and bend positions, or your own GLSL",
-        own_shading.empty() ? std::string(default_shading.name) : own_shading, std::move(names), {glsl.required()}));
-    all.push_back(Param::object("texture", "the four textures that the shading reads",
-                                {Param::asset("image", "their picture: one name for all four, or one for each",
-                                              "texture", default_texture, {"leaf", "smoke"})
-                                     .or_each_of(texture_count),
-                                 Param::integer("size", "width and height", "px", 1024, 1, 4096)}));
-    return all;
+    return {Param::choice_or_object("shading",
+                                    "what the fragment shader does: read textures and bend positions, or your own GLSL",
+                                    own_shading.empty() ? std::string(default_shading.name) : own_shading,
+                                    std::move(names), {glsl.required()}),
+            Param::object("texture", "the four textures that the shading reads",
+                          {Param::asset("image", "their picture: one name for all four, or one for each", "texture",
+                                        default_texture, {"leaf", "smoke"})
+                               .or_each_of(texture_count),
+                           Param::integer("size", "width and height", "px", 1024, 1, 4096)})};
 }
 
 Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets) {
     const SceneInfo& info = *find_scene(scene.at("type"));
-    std::string field = "/scene/" + info.asset_field;
+    Geometry geometry;
     try {
-        Geometry geometry = info.build(scene, image, assets);
-        for (const AssetReference& reference : scene_assets(scene)) {
-            if (!reference.pointer.starts_with("/scene/texture/image")) continue;
-            field = reference.pointer;
-            if (geometry.textures.contains(reference.name)) continue;
-            const int size_px = scene.at("texture").at("size");
-            const Picture& picture =
-                geometry.textures.emplace(reference.name, assets.picture(reference.name, size_px, size_px))
-                    .first->second;
-            add_notes_of(geometry.notes, picture.notes, field);
-        }
-        return geometry;
+        geometry = info.build(scene, image, assets);
     } catch (const AssetError& error) {
-        throw SpecError(std::vector<FieldError>{{field, error.what()}});
+        throw SpecError(std::vector<FieldError>{{"/scene/" + info.asset_field, error.what()}});
     }
+    add_textures(info, scene, "/scene", assets, geometry);
+    return geometry;
+}
+
+void add_textures(const SceneInfo& info, const nlohmann::json& look, const std::string& pointer, AssetReader& assets,
+                  Geometry& geometry) {
+    for (const AssetReference& reference : look_assets(info, look, pointer)) {
+        const int size_px = look.at("texture").at("size");
+        if (geometry.textures.contains({reference.name, size_px})) continue;
+        try {
+            const Picture& picture =
+                geometry.textures
+                    .emplace(std::pair(reference.name, size_px), assets.picture(reference.name, size_px, size_px))
+                    .first->second;
+            add_notes_of(geometry.notes, picture.notes, reference.pointer);
+        } catch (const AssetError& error) {
+            throw SpecError(std::vector<FieldError>{{reference.pointer, error.what()}});
+        }
+    }
+}
+
+std::vector<AssetReference> look_assets(const SceneInfo& info, const nlohmann::json& look, const std::string& pointer) {
+    std::vector<Param> fields = info.look_parameters();
+    std::erase_if(fields, [&](const Param& field) { return !look.contains(field.name); });
+    return find_assets(look, pointer, fields);
 }
 
 std::vector<AssetReference> scene_assets(const nlohmann::json& scene) {
     return find_assets(scene, "/scene", find_scene(scene.at("type"))->all_parameters());
 }
 
-std::vector<SourceFile> source_files(const nlohmann::json& scene, const AssetReader& assets) {
+std::vector<SourceFile> source_files(const std::vector<AssetReference>& references, const AssetReader& assets) {
     std::vector<SourceFile> found;
     const std::vector<AssetFile> files = assets.files();
-    for (const AssetReference& reference : scene_assets(scene))
+    for (const AssetReference& reference : references)
         for (const AssetFile& file : files)
             if (file.of.empty() ? file.name == reference.name : file.of == reference.name)
                 found.push_back({reference.pointer, file});

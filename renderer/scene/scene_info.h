@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/core/notes.h"
@@ -64,7 +65,8 @@ struct Geometry {
     std::vector<Picture> pictures;        ///< of the materials
     PictureArrays picture_arrays;         ///< where the pictures lie
     std::vector<glm::vec2> emission_uvs;  ///< of the vertices, if a material has an emission picture; otherwise empty
-    std::map<std::string, Picture> textures;  ///< square; those of the four textures that are files, by name
+    /// Those of the textures that are files, square; by name and width in px.
+    std::map<std::pair<std::string, int>, Picture> textures;
     std::optional<VolumeShading> volume;
     bool parallel = false;  ///< no primitives intersect and each has one depth, so drawing them in depth order is exact
     std::vector<Note> notes;  ///< of the files that the scene is made from
@@ -95,6 +97,8 @@ struct SceneInfo {
 
     /// Its own parameters and those of all scenes: shading and texture.
     std::vector<Param> all_parameters() const;
+    /// Shading and texture, which a method may have of its own: its look.
+    std::vector<Param> look_parameters() const;
 };
 
 /// Every scene type, from the generated table.
@@ -105,8 +109,13 @@ const SceneInfo* find_scene(const std::string& id);
 /// The scene of a normalised spec, with those of its textures that are files.
 /// Throws SpecError for a file that cannot be used, at the field that refers to it.
 Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets);
+/// Adds the textures of a look that are files, with errors as above; `pointer` is the method's.
+void add_textures(const SceneInfo& info, const nlohmann::json& look, const std::string& pointer, AssetReader& assets,
+                  Geometry& geometry);
 /// Every file that a normalised scene refers to, with pointers from /scene.
 std::vector<AssetReference> scene_assets(const nlohmann::json& scene);
+/// Every file that a normalised look of such a scene refers to; `pointer` is the method's.
+std::vector<AssetReference> look_assets(const SceneInfo& info, const nlohmann::json& look, const std::string& pointer);
 
 /// A file that a scene drew from.
 struct SourceFile {
@@ -115,8 +124,8 @@ struct SourceFile {
 
     bool operator==(const SourceFile&) const = default;
 };
-/// Those files that `assets` has read for this scene.
-std::vector<SourceFile> source_files(const nlohmann::json& scene, const AssetReader& assets);
+/// Those files that `assets` has read for these fields.
+std::vector<SourceFile> source_files(const std::vector<AssetReference>& references, const AssetReader& assets);
 /// {pointer, name, of, sha256, bytes} of each; `of` is null for a file that the spec itself names.
 nlohmann::json to_json(const std::vector<SourceFile>& files);
 

@@ -175,17 +175,17 @@ class SpecReader {
         if (info->check) info->check(spec.scene, "/scene", m_errors);
         spec.scene["type"] = info->id;
         spec.normalised["scene"] = spec.scene;
-        check_assets(spec.scene);
+        check_assets(scene_assets(spec.scene));
     }
 
-    void check_assets(const json& scene) {
+    void check_assets(const std::vector<AssetReference>& references) {
         if (!m_rule) return;
-        for (const AssetReference& reference : scene_assets(scene))
+        for (const AssetReference& reference : references)
             if (const std::string wrong = m_rule(reference); !wrong.empty()) error(reference.pointer, wrong);
     }
 
-    /// `value` is an id, or an object with id, label and parameters.
-    MethodSpec read_method(const json& value, const std::string& pointer) {
+    /// `value` is an id, or an object with id, label and parameters, and with a look if there is a `scene`.
+    MethodSpec read_method(const json& value, const std::string& pointer, const json* scene = nullptr) {
         json parameters = value.is_object() ? value : json{{"id", value}};
         const bool has_id = parameters.contains("id") && parameters["id"].is_string();
         const std::string id_pointer = value.is_object() ? pointer + "/id" : pointer;
@@ -199,11 +199,34 @@ class SpecReader {
                                           parameters["id"].get<std::string>(), joined_ids(all_methods())));
             return {};
         }
-        MethodSpec method{info->id, read_label(parameters, pointer), {}};
+        MethodSpec method{info->id, read_label(parameters, pointer), {}, json::object(), pointer};
         parameters.erase("id");
         parameters.erase("label");
+        if (scene != nullptr) method.look = read_look(parameters, *scene, pointer);
         method.parameters = read_fields(parameters, pointer, info->parameters, m_errors);
         return method;
+    }
+
+    /// Takes the look out of `method`. A texture that says only its picture or its size has the other from the scene.
+    json read_look(json& method, const json& scene, const std::string& pointer) {
+        const SceneInfo* info = scene.is_object() ? find_scene(scene.value("type", "")) : nullptr;
+        json given = json::object();
+        std::vector<Param> fields = info ? info->look_parameters() : std::vector<Param>();
+        for (const char* name : {"shading", "texture"}) {
+            if (!method.contains(name)) std::erase_if(fields, [&](const Param& field) { return field.name == name; });
+            if (method.contains(name)) given[name] = method[name];
+            method.erase(name);
+        }
+        if (!info || given.empty()) return json::object();
+        if (given.contains("texture") && given["texture"].is_object()) {
+            json texture = scene["texture"];
+            texture.update(given["texture"]);
+            given["texture"] = texture;
+        }
+        json look = read_fields(given, pointer, fields, m_errors);
+        if (look.contains("shading")) check_glsl_shading(look, pointer, m_errors);
+        check_assets(look_assets(*info, look, pointer));
+        return look;
     }
 
     std::string read_label(const json& parameters, const std::string& pointer) {
@@ -220,6 +243,7 @@ class SpecReader {
         json object = method.parameters.is_object() ? method.parameters : json::object();
         object["id"] = method.id;
         object["label"] = method.label;
+        object.update(method.look);
         return object;
     }
 
@@ -229,10 +253,22 @@ class SpecReader {
         if (!methods.is_array() || methods.empty() || methods.size() > max_methods)
             return error("/methods", fmt::format("must be an array of 1 to {} methods", max_methods));
         for (std::size_t i = 0; i < methods.size(); ++i)
-            spec.methods.push_back(read_method(methods[i], fmt::format("/methods/{}", i)));
+            spec.methods.push_back(read_method(methods[i], fmt::format("/methods/{}", i),
+                                               m_known_scene ? &m_known_scene->scene : &spec.scene));
         set_labels(spec.methods);
+        check_looks(spec.methods);
         spec.normalised["methods"] = json::array();
         for (const MethodSpec& method : spec.methods) spec.normalised["methods"].push_back(method_json(method));
+    }
+
+    /// Each look has textures and a reference of its own.
+    void check_looks(const std::vector<MethodSpec>& methods) {
+        std::vector<json> looks;
+        for (const MethodSpec& method : methods)
+            if (!method.look.empty() && std::ranges::find(looks, method.look) == looks.end())
+                looks.push_back(method.look);
+        if (looks.size() > max_looks)
+            error("/methods", fmt::format("must have at most {} different looks (shading and texture)", max_looks));
     }
 
     /// Given labels must be unique; the others are the id, numbered if it is taken.

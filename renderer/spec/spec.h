@@ -15,6 +15,9 @@ struct MethodSpec {
     std::string id;
     std::string label;  ///< unique in the spec
     nlohmann::json parameters;
+    /// Its look: the `shading` and the `texture` with which it draws the scene, instead of the scene's own; {}: none.
+    nlohmann::json look = nlohmann::json::object();
+    std::string pointer;  ///< in the spec
 };
 
 struct TimingSpec {

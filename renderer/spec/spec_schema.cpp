@@ -48,8 +48,27 @@ json method_schemas(SchemaOf object) {
     return methods;
 }
 
-json with_label(json methods, bool is_required) {
+/// The looks that a method may have, in any scene: a method knows nothing of the scene's type.
+json look_schemas(SchemaOf object) {
+    std::vector<Param> fields = all_scenes().front().look_parameters();
+    for (const SceneInfo& scene : all_scenes()) {
+        if (scene.own_shading.empty()) continue;
+        std::vector<std::string>& names = fields.front().choices;
+        if (std::ranges::find(names, scene.own_shading) == names.end()) names.push_back(scene.own_shading);
+    }
+    json look = object(fields)["properties"];
+    for (json& field : look) {
+        field["description"] = "instead of the scene's own: docs/ci.md";
+        field.erase("default");
+    }
+    for (json& part : look["texture"]["properties"]) part.erase("default");
+    return look;
+}
+
+json with_label(json methods, SchemaOf object, bool is_required) {
+    const json looks = look_schemas(object);
     for (json& method : methods) {
+        method["properties"].update(looks);
         method["properties"]["label"] = label_schema();
         if (is_required) method["required"].push_back("label");
     }
@@ -81,15 +100,16 @@ void add_own_fields(json& schema, SchemaOf object, const json& methods) {
 json spec_schema() {
     json schema = schema_of(spec_fields());
     schema["required"] = {"scene", "methods"};
-    const json methods = with_ids(with_label(method_schemas(schema_of), false));
+    const json methods = with_ids(with_label(method_schemas(schema_of), schema_of, false));
     add_own_fields(schema, schema_of, methods);
-    schema["properties"]["reference"]["oneOf"] = methods;
+    schema["properties"]["reference"]["oneOf"] = with_ids(method_schemas(schema_of));
     return schema;
 }
 
 json normalised_spec_schema() {
     json schema = normalised_schema_of(spec_fields());
-    add_own_fields(schema, normalised_schema_of, with_label(method_schemas(normalised_schema_of), true));
+    add_own_fields(schema, normalised_schema_of,
+                   with_label(method_schemas(normalised_schema_of), normalised_schema_of, true));
     schema["properties"]["reference"]["oneOf"] = method_schemas(normalised_schema_of);
     json baseline = label_schema();
     baseline["description"] = "label of the method with which times are compared";

@@ -26,7 +26,10 @@ class SweptFields {
     SweptFields() {
         for (const Param& param : spec_fields())
             if (param.name == "image") add(param.fields, "/image");
-        for (const SceneInfo& scene : all_scenes()) add(scene.all_parameters(), "/scene");
+        for (const SceneInfo& scene : all_scenes()) {
+            add(scene.all_parameters(), "/scene");
+            add(scene.look_parameters(), fmt::format("/methods/{}", any_index));
+        }
         for (const MethodInfo& method : all_methods()) add(method.parameters, fmt::format("/methods/{}", any_index));
     }
 

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "renderer/assets/file_assets.h"
-#include "renderer/compare/compare.h"
+#include "renderer/compare/looks.h"
 #include "renderer/core/clock.h"
 #include "renderer/files/blob_sink.h"
 #include "renderer/files/report_document.h"
@@ -131,7 +131,7 @@ class Subject {
     void check_unchanged(const Spec& spec, const FileAssets& assets) const {
         if (!m_is_report) return;
         const std::vector<report::File>& then = m_report.runs.at(index()).files;
-        for (const auto& [pointer, now] : source_files(spec.scene, assets)) {
+        for (const auto& [pointer, now] : source_files_of(spec, assets)) {
             const auto is_of_name = [&now = now](const report::File& file) {
                 return file.name == now.name && file.of == now.of;
             };

@@ -63,8 +63,8 @@ Viewer::Viewer(const Spec& spec, const gl::ContextRequest& request, AssetReader&
     m_sides[1].choice = 1;
     for (Side& side : m_sides) side.target = std::make_unique<Target>(m_window.gl(), m_spec.image, m_spec.image.format);
     m_divider_px = m_window.size().width_px / 2;
-    build_scene();
-    check_loops(m_window.gl(), *m_scene, m_spec.image);
+    build_scenes();
+    for (const auto& [look, scene] : m_scenes) check_loops(m_window.gl(), *scene, m_spec.image);
 }
 
 void Viewer::run() {
@@ -141,11 +141,11 @@ void Viewer::scale_threshold(double factor) {
 void Viewer::look_through(const nlohmann::json& camera) {
     m_spec.scene["camera"] = camera;
     for (Side& side : m_sides) side.renew();
-    m_scene.reset();
+    m_scenes.clear();
 }
 
 void Viewer::draw() {
-    if (!m_scene) build_scene();
+    if (m_scenes.empty()) build_scenes();
     draw_side(m_sides[0]);
     if (m_split) draw_side(m_sides[1]);
     show_picture();
@@ -153,13 +153,26 @@ void Viewer::draw() {
     m_window.set_title(title());
 }
 
-void Viewer::build_scene() {
-    const Geometry geometry = build_geometry(m_spec.scene, m_spec.image, m_assets);
+void Viewer::build_scenes() {
+    Geometry geometry = build_geometry(m_spec.scene, m_spec.image, m_assets);
     if (m_first_camera.is_null() && !geometry.camera.is_null()) {
         m_first_camera = geometry.camera;
         m_spec.scene["camera"] = geometry.camera;
     }
-    m_scene = std::make_unique<Scene>(m_window.gl(), geometry, m_spec.scene);
+    for (const MethodSpec& choice : m_choices) {
+        if (scene_of(choice) != nullptr) continue;
+        add_textures(*find_scene(m_spec.scene_type), choice.look, choice.pointer, m_assets, geometry);
+        nlohmann::json parameters = m_spec.scene;
+        parameters.update(choice.look);
+        m_scenes.emplace_back(choice.look, std::make_unique<Scene>(m_window.gl(), geometry, parameters,
+                                                                   choice.look.empty() ? "/scene" : choice.pointer));
+    }
+}
+
+const Scene* Viewer::scene_of(const MethodSpec& choice) const {
+    for (const auto& [look, scene] : m_scenes)
+        if (look == choice.look) return scene.get();
+    return nullptr;
 }
 
 void Viewer::draw_side(Side& side) {
@@ -196,7 +209,8 @@ void Viewer::draw_side(Side& side) {
 /// The first frame, which may compile shaders, is not timed.
 void Viewer::make_method(Side& side) {
     const MethodSpec& choice = m_choices[side.choice];
-    side.method = find_method(choice.id)->make({m_window, m_window.gl(), *m_scene, *side.target}, choice.parameters);
+    side.method =
+        find_method(choice.id)->make({m_window, m_window.gl(), *scene_of(choice), *side.target}, choice.parameters);
     render(*side.method, false);
 }
 

@@ -49,7 +49,9 @@ class Viewer {
     void look_through(const nlohmann::json& camera);
 
     void draw();
-    void build_scene();
+    void build_scenes();
+    /// Null if it has not been built.
+    const Scene* scene_of(const MethodSpec& choice) const;
     void draw_side(Side& side);
     void make_method(Side& side);
     gl::FrameSample render(Method& method, bool timed);
@@ -68,8 +70,9 @@ class Viewer {
     gl::FrameTimer m_timer;
     std::vector<MethodSpec> m_choices;  ///< the spec's methods, then its reference
     nlohmann::json m_first_camera;      ///< null for a scene without one
-    std::unique_ptr<Scene> m_scene;     ///< null if it has to be built
-    std::array<Side, 2> m_sides;        ///< left, right; without a split the left one fills the window
+    /// The scene in each look (MethodSpec::look) of the methods; empty if it has to be built.
+    std::vector<std::pair<nlohmann::json, std::unique_ptr<Scene>>> m_scenes;
+    std::array<Side, 2> m_sides;  ///< left, right; without a split the left one fills the window
     bool m_split = false;
     int m_divider_px = 0;  ///< in the window's picture
 };

@@ -96,7 +96,7 @@ TEST_F(AlphaReference, TexturesOfOneAlphaAreDrawnWhole) {
         Picture picture{Image(8, 8), eight_bit, {}};
         for (std::size_t i = 0; i < picture.image.rgba.size(); ++i)
             picture.image.rgba[i] = i % 4 == 3 ? alpha : i % 4 == 0 ? 1.0f : 0.0f;
-        geometry.textures = {{"leaf", picture}};  // instead of the texture that the scene names
+        geometry.textures = {{{"leaf", 8}, picture}};  // instead of the texture that the scene names
         return geometry;
     };
     for (const std::string method : {"alpha_test", "ssam", "stencil_cap", "alpha_to_coverage"})

@@ -124,6 +124,34 @@ TEST_F(ReportFixture, TimesAndSpeedupsAreThoseOfTheSamples) {
         json({{"value", 2.0}, {"ci95", {2.0, 2.0}}, {"verdict", "faster"}, {"reason", nullptr}, {"compared", 1}}));
 }
 
+/// A method in another look is compared with its counterpart: 51 levels in one pixel, and 2 / 3 of the time.
+TEST_F(ReportFixture, AChangeIsComparedWithTheSameMethodInTheOtherLook) {
+    MethodResult& before = runs[0].results[1];
+    MethodResult after = before;
+    after.method.label = "new";
+    after.method.look = {{"shading", "constant"}};
+    after.image.pixel(0, 0)[2] = 0.2f;
+    after.samples.clear();
+    for (int round = 1; round <= 6; ++round) after.samples.push_back(sample(3.0 * round, 2.5 * round));
+    after.change = PictureChange{before.method.label, false, compute_metrics(before.image, after.image)};
+    runs[0].results[0].no_change_reason = "it has no counterpart";
+    runs[0].results.push_back(after);
+    const json results = report()["runs"][0]["results"];
+    const json& change = results[3]["change"];
+    EXPECT_EQ(change["from"], "F2BD <1>");
+    EXPECT_EQ(change["identical"], false);
+    EXPECT_EQ(change["metrics"]["differing_pixels"], 1);
+    EXPECT_EQ(change["metrics"]["signed"]["min"], -51);
+    // 5, 10, ... 30 ms over 3, 6, ... 18 ms; the baseline differs from itself by 10.5 / 10.
+    EXPECT_NEAR(change["speedup"]["value"].get<double>(), 5.0 / 3, 1e-12);
+    EXPECT_EQ(change["speedup"]["verdict"], "faster");
+    EXPECT_EQ(change["speedup"]["compared"], 1);
+    EXPECT_TRUE(results[1]["change"].is_null());
+    EXPECT_FALSE(results[1].contains("change_reason")) << "it has no look of its own";
+    EXPECT_EQ(results[0]["change_reason"], "it has no counterpart");
+    EXPECT_THAT(table_of(report()), HasSubstr("Change from F2BD <1> to new: the picture is different, mean FLIP"));
+}
+
 TEST_F(ReportFixture, TheBaselineIsComparedWithItself) {
     const json run = report()["runs"][0];
     EXPECT_EQ(run["rounds"], json({{"asked", 10}, {"done", 6}, {"needed", 6}}));

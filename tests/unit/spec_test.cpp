@@ -5,6 +5,7 @@
 
 #include "renderer/methods/shared/method.h"
 #include "renderer/scene/scene_info.h"
+#include "renderer/spec/shaders.h"
 
 namespace sheer::spec_test {
 
@@ -146,6 +147,61 @@ const std::vector<BadSpec>& bad_specs() {
 
 INSTANTIATE_TEST_SUITE_P(All, BadSpecs, testing::ValuesIn(bad_specs()),
                          [](const testing::TestParamInfo<BadSpec>& spec) { return spec.param.name; });
+
+TEST(Spec, AMethodMayHaveALookOfItsOwn) {
+    json document = with("/scene/texture", {{"image", "leaf"}, {"size", 64}});
+    document["methods"] = {"f2bd",
+                           {{"id", "f2bd"}, {"label", "new"}, {"shading", {{"glsl", "return tint;"}}}},
+                           {{"id", "f2bd"}, {"label", "smoke"}, {"texture", {{"image", "smoke"}}}}};
+    const Spec spec = parse_spec(document);
+    EXPECT_EQ(spec.methods[0].look, json::object());
+    EXPECT_EQ(spec.methods[1].look, json({{"shading", {{"glsl", "return tint;"}}}}));
+    EXPECT_EQ(spec.methods[2].look, json({{"texture", {{"image", "smoke"}, {"size", 64}}}}))
+        << "what it does not say is the scene's";
+    EXPECT_EQ(spec.methods[1].parameters, spec.methods[0].parameters);
+    EXPECT_EQ(spec.normalised["methods"][1]["shading"]["glsl"], "return tint;");
+    EXPECT_FALSE(spec.normalised["methods"][0].contains("shading"));
+    EXPECT_EQ(parse_spec(spec.normalised).normalised, spec.normalised);
+
+    document["sweep"] = {{{"pointer", "/methods/1/shading/glsl"}, {"values", {"return tint;", "return tint * 0.5;"}}}};
+    EXPECT_EQ(spec_at(parse_spec(document), parse_spec(document).points[1]).methods[1].look["shading"]["glsl"],
+              "return tint * 0.5;");
+}
+
+TEST(Spec, WrongLooksAreNamedByTheirFields) {
+    const auto method = [](const json& look) {
+        json one = {{"id", "f2bd"}};
+        one.update(look);
+        return with("/methods/1", one);
+    };
+    EXPECT_THAT(wrong_fields(method({{"shading", "5-textures"}})), ElementsAre("/methods/1/shading"));
+    EXPECT_THAT(wrong_fields(method({{"shading", {{"glsl", "#version 450"}}}})),
+                ElementsAre("/methods/1/shading/glsl"));
+    EXPECT_THAT(wrong_fields(method({{"texture", {{"size", 0}, {"wrap", 1}}}})),
+                UnorderedElementsAre("/methods/1/texture/size", "/methods/1/texture/wrap"));
+    EXPECT_THAT(wrong_fields(with("/reference", {{"id", "exact"}, {"shading", "constant"}})),
+                ElementsAre("/reference/shading"))
+        << "a reference is in the look of what is compared with it";
+    json many = smallest();
+    for (int i = 0; i < 9; ++i) many["methods"].push_back({{"id", "b2f"}, {"texture", {{"size", 8 + i}}}});
+    EXPECT_THAT(wrong_fields(many), ElementsAre("/methods"));
+    many["methods"].erase(2);
+    EXPECT_THAT(wrong_fields(many), testing::IsEmpty());
+}
+
+TEST(Spec, EveryShaderIsListedOnce) {
+    json document = with("/scene/shading", {{"glsl", "return tint;"}});
+    document["methods"] = {"b2f",
+                           {{"id", "f2b"}, {"label", "same"}, {"shading", {{"glsl", "return tint;"}}}},
+                           {{"id", "f2b"}, {"label", "new"}, {"shading", {{"glsl", "return tint * 0.5;"}}}}};
+    document["sweep"] = {{{"pointer", "/scene/count"}, {"values", {1, 2}}},
+                         {{"pointer", "/scene/shading/glsl"}, {"values", {"return tint;", "return vec4(0.5);"}}}};
+    std::vector<std::string> told;
+    for (const SpecShader& shader : shaders_of(parse_spec(document)))
+        told.push_back(shader.pointer + " " + shader.glsl);
+    EXPECT_THAT(told, ElementsAre("/scene/shading/glsl return tint;", "/methods/2/shading/glsl return tint * 0.5;",
+                                  "/sweep/1 return vec4(0.5);"));
+}
 
 TEST(Spec, ErrorsSayWhatIsAllowed) {
     try {
