@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "renderer/core/number_text.h"
 #include "renderer/files/diff_parts.h"
 #include "renderer/files/report_document.h"
+#include "renderer/spec/sweep.h"
 
 namespace sheer {
 
@@ -175,9 +177,50 @@ diff::Diff diff_reports(const DiffSide& a, const DiffSide& b, const DiffOptions&
     return diff;
 }
 
-bool is_worse(const diff::Diff& diff) {
-    const diff::Summary& summary = diff.summary;
-    return summary.pictures.different > 0 || summary.times.slower > 0 || summary.statuses_changed > 0;
+namespace {
+
+/// "" if it does not differ, or by no more than is tolerated.
+std::string worse_picture(const diff::PictureDiff& picture, const DiffTolerance& tolerance) {
+    if (picture.verdict != diff::PictureVerdict::different) return "";
+    if (!picture.flip) return "its picture differs";
+    if (picture.flip->mean <= tolerance.max_flip && tolerance.max_flip > 0) return "";
+    return fmt::format("its picture differs by a mean FLIP of {}, at most {}", number_text(picture.flip->mean),
+                       number_text(tolerance.max_flip));
+}
+
+/// Whether a speedup, which is the time before over the time now, is resolved to be a slowdown of more than `limit`.
+bool is_slower_by(const diff::Judged& judged, double limit) {
+    return judged.ci95 && (*judged.ci95)[1] < 1 / limit;
+}
+
+std::string slower_time(const diff::TimeDiff& time, bool same_device, const DiffTolerance& tolerance) {
+    if (time.verdict != report::SpeedVerdict::slower || !time.absolute) return "";
+    const bool is_beyond = is_slower_by(*time.absolute, tolerance.max_slowdown) &&
+                           (!same_device || !time.relative || is_slower_by(*time.relative, tolerance.max_slowdown));
+    if (!is_beyond) return "";
+    return fmt::format("it takes {} times as long, at most {}", number_text(1 / time.absolute->value),
+                       number_text(tolerance.max_slowdown));
+}
+
+}  // namespace
+
+std::vector<std::string> changes_for_the_worse(const diff::Diff& diff, const DiffTolerance& tolerance) {
+    std::vector<std::string> all;
+    for (const diff::RunDiff& run : diff.runs) {
+        const std::string at = run.point.empty() ? "" : " at " + describe_point(run.point);
+        const auto add = [&](const std::string& what, const std::string& change) {
+            if (!change.empty()) all.push_back(fmt::format("{}{}: {}", what, at, change));
+        };
+        if (run.reference.picture) add("the reference", worse_picture(*run.reference.picture, tolerance));
+        for (const diff::ResultDiff& result : run.results) {
+            if (result.status.a != result.status.b)
+                add(result.label,
+                    fmt::format("its status was {} and is {}", word_of(result.status.a), word_of(result.status.b)));
+            if (result.picture) add(result.label, worse_picture(*result.picture, tolerance));
+            if (result.time) add(result.label, slower_time(*result.time, diff.same_device, tolerance));
+        }
+    }
+    return all;
 }
 
 }  // namespace sheer

@@ -47,8 +47,15 @@ class DiffConflict : public SpecError {
 /// exceptions if the spec of a report is not one: check_comparable() finds that.
 diff::Diff diff_reports(const DiffSide& a, const DiffSide& b, const DiffOptions& options = {});
 
-/// Whether something got worse: a picture or a status changed, or a method is slower.
-bool is_worse(const diff::Diff& diff);
+/// How much worse a report may be than the one before it.
+struct DiffTolerance {
+    double max_flip = 0;      ///< mean FLIP error of a picture that differs, 0..1
+    double max_slowdown = 1;  ///< a method's time over its time before, at least 1
+};
+
+/// A sentence for each change for the worse: a picture that differs by more than the tolerance, a status that changed,
+/// a method that is resolved to be slower by more than the tolerance, which means that its whole interval is.
+std::vector<std::string> changes_for_the_worse(const diff::Diff& diff, const DiffTolerance& tolerance = {});
 
 /// A table for the terminal, with a line for each method.
 std::string diff_table(const diff::Diff& diff);

@@ -20,6 +20,7 @@ struct DiffArguments {
     std::string a, b, out;
     std::vector<std::string> allow;
     bool as_json = false;
+    DiffTolerance tolerance;
 };
 
 /// A report.json and the folder with its pictures.
@@ -97,8 +98,14 @@ int run_diff(const DiffArguments& options) {
     const ReportFile a(options.a), b(options.b);
     const diff::Diff result =
         options.out.empty() ? compare_files(a, b, {.allow = options.allow}) : diff_into(options, a, b);
-    fmt::print("{}", options.as_json ? json_page(to_document(result)) : diff_table(result));
-    return is_worse(result) ? exit_check_failed : exit_ok;
+    const std::vector<std::string> worse = changes_for_the_worse(result, options.tolerance);
+    if (options.as_json) {
+        fmt::print("{}", json_page(to_document(result)));
+    } else {
+        fmt::print("{}{}", diff_table(result), worse.empty() ? "" : "\n");
+        for (const std::string& one : worse) fmt::print("WORSE  {}\n", one);
+    }
+    return worse.empty() ? exit_ok : exit_check_failed;
 }
 
 }  // namespace
@@ -115,6 +122,12 @@ void add_diff(CLI::App& app, int& exit_code) {
         ->expected(1)
         ->take_all()
         ->type_name("POINTER");
+    command->add_option("--max-flip", options->tolerance.max_flip, "Mean FLIP error that a changed picture may have")
+        ->check(CLI::Range(0.0, 1.0));
+    command
+        ->add_option("--max-slowdown", options->tolerance.max_slowdown,
+                     "How many times as long a method may take, such as 1.2")
+        ->check(CLI::Range(1.0, 1000.0));
     command->add_flag("--json", options->as_json, "Print JSON instead of a table");
     command->callback([options, &exit_code] { exit_code = guarded([&] { return run_diff(*options); }); });
 }

@@ -230,3 +230,23 @@ test("over HTTP", async () => {
     await service.settled(running);
   });
 });
+
+test("tolerances say what counts as worse", () => {
+  compare("red", QUICK);
+  compare("darker", with_layer({ color: [0.98, 0, 0] }));
+  const allowed = ["--allow", "/scene/layers/0/color"];
+  const strict = diff("red", "darker", ...allowed);
+  assert.equal(strict.status, 1);
+  assert.match(strict.stdout, /^WORSE {2}b2f: its picture differs by a mean FLIP of 0\.\d+, at most 0$/m);
+  const mean = JSON.parse(diff("red", "darker", ...allowed, "--json").stdout).runs[0].results[0].picture.flip.mean;
+  assert.ok(mean > 0 && mean < 0.5, `${mean}`);
+  const tolerant = diff("red", "darker", ...allowed, "--max-flip", `${mean * 1.01}`, "--max-slowdown", "50");
+  assert.equal(tolerant.status, 0, tolerant.stdout);
+  assert.doesNotMatch(tolerant.stdout, /WORSE/);
+  assert.equal(diff("red", "darker", ...allowed, "--max-flip", `${mean * 0.99}`).status, 1);
+  for (const wrong of [
+    ["--max-flip", "2"],
+    ["--max-slowdown", "0.5"],
+  ])
+    assert.equal(diff("red", "darker", ...wrong).status, 2);
+});

@@ -74,7 +74,9 @@ class ReportDiff : public testing::Test {
         return to_document(diff_reports({of_a, read}, {of_b, read}, options));
     }
 
-    static bool is_worse(const json& diff) { return sheer::is_worse(from_document<diff::Diff>(diff)); }
+    static bool is_worse(const json& diff, const DiffTolerance& tolerance = {}) {
+        return !changes_for_the_worse(from_document<diff::Diff>(diff), tolerance).empty();
+    }
     static std::string diff_table(const json& diff) { return sheer::diff_table(from_document<diff::Diff>(diff)); }
 
     json of(std::size_t index, const char* part) { return diff()["runs"][0]["results"][index][part]; }
@@ -169,6 +171,36 @@ TEST_F(ReportDiff, AMethodIsSlowerIfItsTimeAndItsRatioSaySo) {
     std::swap(a, b);
     EXPECT_EQ(of(1, "time")["verdict"], "faster");
     EXPECT_FALSE(is_worse(diff())) << "faster is not worse";
+}
+
+/// FLIP of the picture is its own test; here only the limits count. All times grow by 13 / 10, so the whole interval of
+/// the slowdown is 1.3.
+TEST_F(ReportDiff, OnlyWhatIsBeyondTheToleranceIsWorse) {
+    Image8 changed(4, 2);
+    changed.pixel(2, 1)[1] = 51;
+    result(b, 1)["images"]["color"] = image(changed);
+    result(b, 1)["timing"] = timing(13);
+    const json both = diff();
+    const auto flip = both["runs"][0]["results"][1]["picture"]["flip"]["mean"].get<double>();
+    const auto worse = [&](double max_flip, double max_slowdown) {
+        return changes_for_the_worse(from_document<diff::Diff>(both),
+                                     {.max_flip = max_flip, .max_slowdown = max_slowdown})
+            .size();
+    };
+    EXPECT_EQ(worse(0, 1), 2u);
+    EXPECT_EQ(worse(flip * 1.01, 1), 1u);
+    EXPECT_EQ(worse(flip * 0.99, 2), 1u);
+    EXPECT_EQ(worse(flip * 1.01, 1.4), 0u);
+    EXPECT_EQ(worse(1, 1.2), 1u);
+    result(b, 2)["status"] = "failed";
+    EXPECT_FALSE(changes_for_the_worse(from_document<diff::Diff>(diff()), {.max_flip = 1, .max_slowdown = 9}).empty())
+        << "no tolerance covers a method that no longer renders";
+}
+
+TEST_F(ReportDiff, AMethodWithItsOwnShadingIsAnother) {
+    b["spec"]["methods"][1]["shading"] = {{"glsl", "return tint;"}};
+    EXPECT_THAT(conflicts(), testing::ElementsAre("/spec/methods/1/shading"));
+    EXPECT_THAT(conflicts({"/methods/1/shading"}), testing::IsEmpty());
 }
 
 TEST_F(ReportDiff, ASlowerMachineDoesNotMakeAMethodSlower) {
