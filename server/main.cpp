@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     sheer::cli::add_render(app, exit_code);
     sheer::cli::add_worker(app, exit_code);
     sheer::cli::add_check_asset(app, exit_code);
+    sheer::cli::add_check_shading(app, exit_code);
     return sheer::cli::run_command_line(app, argc, argv, exit_code, [&](const std::string& message) {
         sheer::cli::note_wrong_command_line(argc, argv, message);
     });

@@ -14,8 +14,9 @@ void add_diff(CLI::App& app, int& exit_code);
 void add_docs(CLI::App& app, int& exit_code);     ///< for ./dev docs; not shown in the help
 void add_gallery(CLI::App& app, int& exit_code);  ///< hidden: see ./dev gallery
 void add_pixel(CLI::App& app, int& exit_code);
-void add_render(CLI::App& app, int& exit_code);       ///< the worker's child process; not shown in the help
-void add_check_asset(CLI::App& app, int& exit_code);  ///< the service's child process; not shown in the help
+void add_render(CLI::App& app, int& exit_code);         ///< the worker's child process; not shown in the help
+void add_check_asset(CLI::App& app, int& exit_code);    ///< the service's child process; not shown in the help
+void add_check_shading(CLI::App& app, int& exit_code);  ///< likewise
 void add_serve(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);
 void add_worker(CLI::App& app, int& exit_code);  ///< started by serve; not shown in the help

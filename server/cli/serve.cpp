@@ -7,6 +7,7 @@
 
 #include "server/archive/sqlite_store.h"
 #include "server/children/device_list.h"
+#include "server/children/shading_check.h"
 #include "server/children/supervisor.h"
 #include "server/cli/commands.h"
 #include "server/cli/service_config.h"
@@ -56,6 +57,7 @@ void serve(const ServeOptions& options) {
     SqliteStore store(config.data, config.leases, system_now_ms);
     ReportIds ids(system_now_ms);
     DeviceList devices(config.devices_cache);
+    ShadingCheck shadings({.memory_limit_bytes = config.worker.memory_limit_bytes});
     http::Service service{
         .store = store,
         .ids = ids,
@@ -67,7 +69,8 @@ void serve(const ServeOptions& options) {
             },
         .pixel = [&config](const std::string& report,
                            const PixelPlace& place) { return run_pixel_child(report, place, config.pixel); },
-        .limits = config.answers};
+        .limits = config.answers,
+        .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); }};
     const http::Application application(http::make_guard(http::is_loopback(endpoint), config.allowed_hosts),
                                         http::make_router(service));
     http::Server server(endpoint, config.http,

@@ -4,6 +4,7 @@
 
 #include "renderer/core/sha256.h"
 #include "renderer/params/param.h"
+#include "renderer/spec/shaders.h"
 #include "renderer/spec/spec.h"
 #include "server/http/application.h"
 #include "server/http/paths.h"
@@ -45,9 +46,26 @@ AssetRule asset_rule(Service& service) {
     };
 }
 
+/// A sweep may have a thousand shaders; those beyond this are compiled when they are rendered.
+constexpr std::size_t max_compiled_shaders = 16;
+
+/// Throws SpecError with every wrong field, and if the user's own shading does not compile.
+Spec checked_spec(Service& service, const nlohmann::json& document) {
+    Spec spec = parse_spec(document, asset_rule(service));
+    if (!service.check_shading) return spec;
+    std::vector<SpecShader> shaders = shaders_of(spec);
+    if (shaders.size() > max_compiled_shaders) shaders.resize(max_compiled_shaders);
+    std::vector<FieldError> errors;
+    for (const SpecShader& shader : shaders)
+        if (const std::string wrong = service.check_shading(shader.glsl); !wrong.empty())
+            errors.push_back({shader.pointer, wrong});
+    if (!errors.empty()) throw SpecError(std::move(errors));
+    return spec;
+}
+
 ReportRecord submit(Service& service, const Request& request) {
     const nlohmann::json document = json_body(request);
-    const Spec spec = parse_spec(document, asset_rule(service));
+    const Spec spec = checked_spec(service, document);
     NewReport report{.id = service.ids.next(), .spec = spec.canonical_text()};
     report.spec_sha256 = sha256_hex(report.spec);
     report.idempotency = idempotency_key(request, document);
@@ -100,7 +118,7 @@ Answer post_report(Service& service, const Request& request) {
 }
 
 Answer validate_spec(Service& service, const Request& request) {
-    const Spec spec = parse_spec(json_body(request), asset_rule(service));
+    const Spec spec = checked_spec(service, json_body(request));
     return text_response(200, spec.canonical_text(), "application/json");
 }
 

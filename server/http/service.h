@@ -26,6 +26,9 @@ struct Service {
     /// Explains a pixel of a done report; see children/pixel_child.h.
     std::function<PixelAnswer(const std::string& report, const PixelPlace& place)> pixel;
     AnswerLimits limits = {};
+    /// What a compiler says of the user's own shading, "" for nothing; see children/shading_check.h. Null: shadings
+    /// are compiled only when they are rendered.
+    std::function<std::string(const std::string& glsl)> check_shading = {};
 };
 
 // The calls by topic. `service` must outlive the routes.

@@ -7,6 +7,13 @@ const service = new Service({ worker: { time_limit_s: 20 } });
 before(() => service.start());
 after(() => service.end_well());
 
+const post_json = (path, spec) =>
+  fetch(`${service.api}/${path}`, {
+    method: "POST",
+    body: JSON.stringify(spec),
+    headers: { "Content-Type": "application/json" },
+  });
+
 const with_body = (glsl) => ({ ...QUICK, scene: { ...QUICK.scene, shading: { glsl } } });
 
 async function finished(spec) {
@@ -33,12 +40,45 @@ test("a body that compiles gives a report", async () => {
   assert.deepEqual(report.spec.scene.shading, { glsl: "return tint;" });
 });
 
-test("an error of the compiler fails the job with the field and the user's line", async () => {
-  const report = await finished(with_body("vec4 mine = tint;\nreturn your;"));
-  assert.equal(report.status, "failed");
-  assert.equal(report.error.title, "The spec is wrong");
-  assert.match(report.error.detail, /^\/scene\/shading\/glsl: does not compile:\nline 2: .*your/);
+test("an error of the compiler is refused with the field and the user's line, before anything is queued", async () => {
+  const known = (await service.reports()).length;
+  const wrong = with_body("vec4 mine = tint;\nreturn your;");
+  for (const path of ["reports", "specs/validate"]) {
+    const problem = await assert_problem(await post_json(path, wrong), 422);
+    assert.equal(problem.errors.length, 1);
+    assert.equal(problem.errors[0].pointer, "/scene/shading/glsl");
+    assert.match(problem.errors[0].detail, /^does not compile:\nline 2: .*your/);
+  }
+  assert.equal((await service.reports()).length, known);
   await assert_next_job_runs();
+});
+
+test("the shaders of methods and of a sweep are compiled too, each once", async () => {
+  const spec = with_body("return tint;");
+  spec.methods = ["b2f", { id: "f2b", label: "new", shading: { glsl: "return tint * 2.0;" } }];
+  assert.equal((await post_json("specs/validate", spec)).status, 200);
+  spec.methods[1].shading.glsl = "\n\nreturn vec3(1);";
+  let problem = await assert_problem(await post_json("specs/validate", spec), 422);
+  assert.deepEqual(
+    problem.errors.map(({ pointer }) => pointer),
+    ["/methods/1/shading/glsl"],
+  );
+  assert.match(problem.errors[0].detail, /line 3: /);
+  spec.methods = ["b2f"];
+  spec.sweep = [{ pointer: "/scene/shading/glsl", values: ["return tint;", "return tint.rg;"] }];
+  problem = await assert_problem(await post_json("specs/validate", spec), 422);
+  assert.deepEqual(
+    problem.errors.map(({ pointer }) => pointer),
+    ["/sweep/0"],
+  );
+});
+
+test("a shading that was compiled once is answered at once", async () => {
+  const wrong = with_body("return once;");
+  await post_json("specs/validate", wrong);
+  const begin = performance.now();
+  for (let i = 0; i < 20; ++i) await assert_problem(await post_json("specs/validate", wrong), 422);
+  assert.ok(performance.now() - begin < 1000, "20 answers from the cache within a second");
 });
 
 test("an endless loop fails the job with the field and a pixel", async () => {
