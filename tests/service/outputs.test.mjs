@@ -363,7 +363,7 @@ test("over HTTP a report that failed or was cancelled has a JUnit file with an e
     const failing = {
       ...QUICK,
       title,
-      scene: { ...QUICK.scene, shading: { glsl: "return vec4(nothing_of_this_name);" } },
+      scene: { ...QUICK.scene, shading: { glsl: "while (uv.x > 0.5) {} return tint;" } },
     };
     const failed = await service.settled(await service.submit(failing));
     assert.equal(failed.status, "failed");
