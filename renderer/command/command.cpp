@@ -91,9 +91,21 @@ void add_source_options(CLI::App& command, Source& source) {
     suite->excludes(spec);
 }
 
+namespace {
+
+/// The reports to compare with are in the archive of a service.
+Spec without_against(Spec spec) {
+    if (spec.against.empty()) return spec;
+    throw SpecError(std::vector<FieldError>{
+        {"/against",
+         "needs the archive of a service, so post the spec there; two reports in folders are compared by sheer diff"}});
+}
+
+}  // namespace
+
 Spec read_spec(const Source& source) {
     if (source.suite.empty() && source.spec.empty()) throw UsageError("give either a SPEC.json or a --suite");
-    if (source.suite.empty()) return load_spec(source.spec);
+    if (source.suite.empty()) return without_against(load_spec(source.spec));
     const Suite* suite = find_suite(source.suite);
     if (!suite)
         throw UsageError(fmt::format("there is no suite \"{}\"; known are {}", source.suite, joined_ids(all_suites())));

@@ -334,7 +334,8 @@ std::vector<std::string> failures(const std::vector<report::Run>& runs) {
     return all;
 }
 
-/// A result that could not be rendered is a failure, whether or not a check needs it.
+}  // namespace
+
 void judge(Report& report) {
     using enum report::ReportVerdict;
     const std::size_t checks = report.checks.size();
@@ -357,8 +358,6 @@ void judge(Report& report) {
         reasons.insert(reasons.begin(), fmt::format("{} of {} checks failed", failed_checks, checks));
     report.verdict_reason = fmt::format("{}", fmt::join(reasons, "; "));
 }
-
-}  // namespace
 
 ReportMaker::ReportMaker(const Spec& spec, const Device& device, PictureSink* pictures, const std::string& created_at)
     : m_spec(spec), m_software(device.info.software), m_pictures(pictures) {

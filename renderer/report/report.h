@@ -28,6 +28,10 @@ class ReportMaker {
     report::Report m_report;
 };
 
+/// Sets a report's verdict and its reason by its checks and results. A result that could not be rendered is a failure,
+/// whether or not a check needs it.
+void judge(report::Report& report);
+
 /// The command line's options for rendering on this device again, preceded by a space; "" if it has no name.
 std::string context_arguments(const Device& device);
 

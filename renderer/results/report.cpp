@@ -279,6 +279,30 @@ const Description<report::Suite>& description_of() {
 }
 
 template <>
+const Description<report::NotAgainst>& description_of() {
+    static const auto description =
+        Description<report::NotAgainst>("NotAgainst", "an accepted report with which this one is not compared")
+            .member(&report::NotAgainst::report, "report", "its id")
+            .member(&report::NotAgainst::reason, "reason", "a sentence")
+            .member(&report::NotAgainst::differing, "differing",
+                    "JSON pointers into the specs of what differs although `under_test` does not list it");
+    return description;
+}
+
+template <>
+const Description<report::Against>& description_of() {
+    static const auto description =
+        Description<report::Against>("Against", "the report with which this one was compared: docs/ci.md")
+            .member(&report::Against::asked, "asked", "what the spec asked for: baseline:NAME, or the id of a report")
+            .member(&report::Against::report, "report", "id of the report; null if there was none to compare with")
+            .text_or_null(&report::Against::accepted_at, "accepted_at",
+                          "when it was accepted, UTC, RFC 3339; null if the spec names the report itself")
+            .member(&report::Against::text, "text", "why this report was chosen, or why there was none: a sentence")
+            .member(&report::Against::refused, "refused", "accepted reports that were tried before, and why not these");
+    return description;
+}
+
+template <>
 const Description<report::Head>& description_of() {
     static const auto description =
         Description<report::Head>("ReportHead", "the members of every report")
@@ -314,7 +338,10 @@ const Description<report::Report>& description_of() {
             .member(&report::Report::provenance, "provenance", "")
             .member(&report::Report::runs, "runs", "one for each point of the sweep")
             .maybe(&report::Report::suite, "suite", "absent if the spec names no suite")
-            .member(&report::Report::checks, "checks", "each check of the spec, at each point to which it applies")
+            .maybe(&report::Report::against, "against", "absent if the spec names nothing to compare with")
+            .member(&report::Report::checks, "checks",
+                    "each check of the spec, at each point to which it applies; then those of the comparison with the "
+                    "report of `against`: against.flip.mean and against.slowdown")
             .member(&report::Report::verdict, "verdict",
                     "failed if a check failed or something could not be rendered, otherwise undecided if a check is "
                     "undecided; none without checks")

@@ -243,6 +243,20 @@ struct Suite {
     std::vector<Trend> trends;
 };
 
+/// An accepted report with which this one could not be compared.
+struct NotAgainst {
+    std::string report, reason;
+    std::vector<std::string> differing;
+};
+
+/// The report with which this one was compared, and why with that one.
+struct Against {
+    std::string asked;
+    std::optional<std::string> report;  ///< none if there was none to compare with
+    std::string accepted_at, text;
+    std::vector<NotAgainst> refused;
+};
+
 /// A report before it is done, or one that ended without being done.
 struct Head {
     std::string id;
@@ -263,6 +277,7 @@ struct Report : Head {
     Provenance provenance;
     std::vector<Run> runs;
     std::optional<Suite> suite;
+    std::optional<Against> against;
     std::vector<Check> checks;
     ReportVerdict verdict = ReportVerdict::none;
     std::string verdict_reason;
@@ -388,6 +403,10 @@ template <>
 const Description<report::Trend>& description_of();
 template <>
 const Description<report::Suite>& description_of();
+template <>
+const Description<report::NotAgainst>& description_of();
+template <>
+const Description<report::Against>& description_of();
 template <>
 const Description<report::Head>& description_of();
 template <>

@@ -13,6 +13,7 @@
 #include "renderer/params/param.h"
 #include "renderer/results/quantity.h"
 #include "renderer/scene/scene_info.h"
+#include "renderer/spec/against_name.h"
 #include "renderer/spec/spec_fields.h"
 #include "renderer/spec/suites.h"
 
@@ -92,6 +93,13 @@ std::vector<Param> spec_fields() {
             "Cartesian product",
             json::array(), max_sweeps),
         Param::list("checks", "conditions for the report to pass", check_fields(), 0, 256),
+        optional_text("against",
+                      "baseline:NAME or the id of a report: the service compares pictures and times with that report"),
+        any("under_test", "JSON pointers into the spec of what may differ from the report of `against`", json::array(),
+            max_under_test),
+        Param::object("tolerance", "by how much the report may be worse than that of `against`",
+                      {Param::number("max_flip", "mean FLIP error of a picture that changed", "", 0, 0, 1),
+                       Param::number("max_slowdown", "a method's time, over its time before", "", 1.1, 1, 1000)}),
     };
 }
 
@@ -122,6 +130,7 @@ class SpecReader {
         const json& timing = normalised["timing"];
         spec.timing = {timing["warmup"], timing["rounds"], timing["max_seconds"]};
         read_suite(spec);
+        read_against(spec);
         if (m_errors.empty()) {
             read_points(spec);
             read_checks(spec);
@@ -319,6 +328,36 @@ class SpecReader {
             spec.suite = found->id;
         } else {
             error("/suite", fmt::format("must be one of {}, not {}", joined_ids(all_suites()), suite.dump()));
+        }
+    }
+
+    void read_against(Spec& spec) {
+        const json& against = spec.normalised["against"];
+        constexpr std::string_view prefix = "baseline:";
+        if (against.is_string()) {
+            spec.against = against;
+            if (spec.against.empty()) error("/against", "must be baseline:NAME or the id of a report");
+            if (spec.against.starts_with(prefix))
+                if (const std::string wrong = wrong_baseline_name(spec.against.substr(prefix.size())); !wrong.empty())
+                    error("/against", "the name of the baseline " + wrong);
+        }
+        const json& under_test = spec.normalised["under_test"];
+        if (!under_test.is_array() || under_test.size() > max_under_test)
+            return error("/under_test", fmt::format("must be an array of at most {} JSON pointers", max_under_test));
+        for (std::size_t i = 0; i < under_test.size(); ++i) {
+            const bool is_pointer = under_test[i].is_string() && is_json_pointer(under_test[i]);
+            if (!is_pointer)
+                error(fmt::format("/under_test/{}", i), "must be a JSON pointer such as /scene/shading/glsl");
+        }
+        if (!under_test.empty() && spec.against.empty())
+            error("/under_test", "needs `against`, which names the report that may differ there");
+    }
+
+    static bool is_json_pointer(const json& text) {
+        try {
+            return !json::json_pointer(text.get<std::string>()).empty();
+        } catch (const json::exception&) {
+            return false;
         }
     }
 

@@ -44,6 +44,7 @@ struct Spec {
     std::string baseline;  ///< label of one of `methods`
     TimingSpec timing;
     std::vector<CheckSpec> checks;
+    std::string against;             ///< "baseline:NAME" or a report's id, with which the report is compared; or ""
     std::string suite;               ///< id of the suite that it repeats, or ""
     std::vector<SweepPoint> points;  ///< at least one
     nlohmann::json normalised;       ///< the whole spec as JSON; parsing it gives the same spec

@@ -92,6 +92,8 @@ void add_own_fields(json& schema, SchemaOf object, const json& methods) {
     properties["scene"]["oneOf"] = scene_schemas(object);
     properties["methods"].update(
         {{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods}, {"items", {{"oneOf", methods}}}});
+    properties["under_test"].update(
+        {{"type", "array"}, {"maxItems", max_under_test}, {"items", {{"type", "string"}, {"pattern", "^/"}}}});
     properties["checks"]["items"]["properties"]["at"].update(swept_point_schema());
 }
 

@@ -13,7 +13,7 @@ namespace sheer {
 namespace {
 
 // Each turns an archive of version N-1 into one of version N.
-constexpr std::array migrations = {"schema.sql", "assets.sql", "retries.sql"};
+constexpr std::array migrations = {"schema.sql", "assets.sql", "retries.sql", "baselines.sql"};
 constexpr std::chrono::hours leftover_age{1};
 
 /// Opening an archive again after its last process has ended needs room.

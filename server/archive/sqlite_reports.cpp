@@ -53,6 +53,9 @@ ReportArchive::Removal SqliteReports::remove(const std::string& id) {
             ask.exec();
             return Removal::cancelling;
         }
+        SQLite::Statement accepted(database, "SELECT 1 FROM baselines WHERE report_id = ?");
+        accepted.bind(1, id);
+        if (accepted.executeStep()) return Removal::accepted;
         SQLite::Statement named(database, "SELECT sha256 FROM report_blobs WHERE report_id = ?");
         named.bind(1, id);
         while (named.executeStep()) candidates.push_back(named.getColumn(0).getString());

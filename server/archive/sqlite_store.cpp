@@ -1,6 +1,7 @@
 #include "server/archive/sqlite_store.h"
 
 #include "server/archive/sqlite_assets.h"
+#include "server/archive/sqlite_baselines.h"
 #include "server/archive/sqlite_blobs.h"
 #include "server/archive/sqlite_queue.h"
 #include "server/archive/sqlite_readiness.h"
@@ -19,6 +20,7 @@ struct SqliteStore::Parts {
     SqliteQueue queue{archive, blobs};
     SqliteReports reports{archive, blobs};
     SqliteAssets assets{archive};
+    SqliteBaselines baselines{archive};
     SqliteReadiness readiness{archive};
 };
 
@@ -38,6 +40,9 @@ Blobs& SqliteStore::blobs() {
 }
 Assets& SqliteStore::assets() {
     return m_parts->assets;
+}
+Baselines& SqliteStore::baselines() {
+    return m_parts->baselines;
 }
 Readiness& SqliteStore::readiness() {
     return m_parts->readiness;

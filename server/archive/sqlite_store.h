@@ -22,6 +22,7 @@ class SqliteStore : public Store {
     ReportArchive& reports() override;
     Blobs& blobs() override;
     Assets& assets() override;
+    Baselines& baselines() override;
     Readiness& readiness() override;
     std::unique_ptr<ChangeWatch> watch() override;
 

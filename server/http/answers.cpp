@@ -172,4 +172,38 @@ const Description<answer::AssetList>& description_of() {
     return description;
 }
 
+template <>
+const Description<answer::AcceptedReport>& description_of() {
+    using answer::AcceptedReport;
+    static const auto description =
+        Description<AcceptedReport>("AcceptedReport", "a report that others may be compared with")
+            .member(&AcceptedReport::report, "report", "its id")
+            .member(&AcceptedReport::url, "url", "path of the report")
+            .member(&AcceptedReport::title, "title", "of its spec")
+            .member(&AcceptedReport::spec_sha256, "spec_sha256", "of its spec; \"\" if the report cannot be read")
+            .member(&AcceptedReport::device, "device", "renderer and processor; only reports of the same are compared")
+            .member(&AcceptedReport::accepted_at, "accepted_at", "UTC, RFC 3339")
+            .member(&AcceptedReport::by, "by", "who accepted it; may be empty")
+            .member(&AcceptedReport::reason, "reason", "why; may be empty");
+    return description;
+}
+
+template <>
+const Description<answer::Baseline>& description_of() {
+    using answer::Baseline;
+    static const auto description = Description<Baseline>("Baseline", "a named set of accepted reports")
+                                        .member(&Baseline::name, "name", "as in `against`, after baseline:")
+                                        .member(&Baseline::url, "url", "path of the baseline")
+                                        .member(&Baseline::reports, "reports", "those accepted last first");
+    return description;
+}
+
+template <>
+const Description<answer::BaselineList>& description_of() {
+    using answer::BaselineList;
+    static const auto description = Description<BaselineList>("BaselineList", "every baseline")
+                                        .member(&BaselineList::baselines, "baselines", "by name");
+    return description;
+}
+
 }  // namespace sheer

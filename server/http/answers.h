@@ -90,6 +90,19 @@ struct AssetList {
     std::uint64_t max_bytes = 0;
 };
 
+struct AcceptedReport {
+    std::string report, url, title, spec_sha256, device, accepted_at, by, reason;
+};
+
+struct Baseline {
+    std::string name, url;
+    std::vector<AcceptedReport> reports;
+};
+
+struct BaselineList {
+    std::vector<Baseline> baselines;
+};
+
 }  // namespace sheer::http::answer
 
 namespace sheer {
@@ -116,5 +129,11 @@ template <>
 const Description<http::answer::AssetKind>& description_of();
 template <>
 const Description<http::answer::AssetList>& description_of();
+template <>
+const Description<http::answer::AcceptedReport>& description_of();
+template <>
+const Description<http::answer::Baseline>& description_of();
+template <>
+const Description<http::answer::BaselineList>& description_of();
 
 }  // namespace sheer

@@ -53,6 +53,8 @@ Answer delete_report(Service& service, const Request& request) {
             return report_response(200, found_report(service, request));
         case Removal::cancelling:
             return report_response(202, found_report(service, request));
+        case Removal::accepted:
+            throw Problem(409, "The report is accepted in a baseline: forget it there first.");
     }
     throw Problem(404, "There is no such report.");
 }
@@ -108,7 +110,8 @@ std::vector<Route> report_routes(Service& service) {
               {{412, "If-Match or If-None-Match is not satisfied", "application/problem+json", "Problem"},
                {200, "It was queued and is cancelled", "application/json", "AnyReport"},
                {202, "It is running and will be cancelled", "application/json", "AnyReport"},
-               {204, "It had ended and is deleted", "", ""}},
+               {204, "It had ended and is deleted", "", ""},
+               {409, "It is accepted in a baseline", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return delete_report(service, request); });
     remove.headers = {{"If-Match", "the expected ETag of the report"}};
     remove.etag = [&service](const Request& request) { return report_etag(found_report(service, request)); };

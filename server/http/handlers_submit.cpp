@@ -52,6 +52,11 @@ constexpr std::size_t max_compiled_shaders = 16;
 /// Throws SpecError with every wrong field, and if the user's own shading does not compile.
 Spec checked_spec(Service& service, const nlohmann::json& document) {
     Spec spec = parse_spec(document, asset_rule(service));
+    if (!spec.against.empty() && !spec.against.starts_with("baseline:")) {
+        const auto before = service.store.reports().find(spec.against);
+        if (!before || before->status != Status::done)
+            throw SpecError(std::vector<FieldError>{{"/against", "there is no done report with this id"}});
+    }
     if (!service.check_shading) return spec;
     std::vector<SpecShader> shaders = shaders_of(spec);
     if (shaders.size() > max_compiled_shaders) shaders.resize(max_compiled_shaders);

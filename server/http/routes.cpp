@@ -5,7 +5,7 @@ namespace sheer::http {
 Router make_router(Service& service) {
     Router router;
     for (auto* routes : {submit_routes, report_routes, diff_routes, pixel_routes, archive_routes, asset_routes,
-                         catalog_routes, health_routes})
+                         baseline_routes, catalog_routes, health_routes})
         router.add(routes(service));
     Route openapi{.method = "GET",
                   .pattern = "/api/v1/openapi.json",

@@ -32,18 +32,22 @@ struct Service {
 };
 
 // The calls by topic. `service` must outlive the routes.
-std::vector<Route> submit_routes(Service& service);   ///< POST /reports, /specs/validate
-std::vector<Route> report_routes(Service& service);   ///< one report
-std::vector<Route> diff_routes(Service& service);     ///< two reports compared with each other
-std::vector<Route> pixel_routes(Service& service);    ///< one pixel of a report
-std::vector<Route> archive_routes(Service& service);  ///< the list of reports, the pictures
-std::vector<Route> asset_routes(Service& service);    ///< uploaded files
-std::vector<Route> catalog_routes(Service& service);  ///< /methods, /scenes, /devices
-std::vector<Route> health_routes(Service& service);   ///< /healthz, /readyz
-std::vector<Route> page_routes();                     ///< the page at /
+std::vector<Route> submit_routes(Service& service);    ///< POST /reports, /specs/validate
+std::vector<Route> report_routes(Service& service);    ///< one report
+std::vector<Route> diff_routes(Service& service);      ///< two reports compared with each other
+std::vector<Route> pixel_routes(Service& service);     ///< one pixel of a report
+std::vector<Route> archive_routes(Service& service);   ///< the list of reports, the pictures
+std::vector<Route> asset_routes(Service& service);     ///< uploaded files
+std::vector<Route> baseline_routes(Service& service);  ///< accepted reports
+std::vector<Route> catalog_routes(Service& service);   ///< /methods, /scenes, /devices
+std::vector<Route> health_routes(Service& service);    ///< /healthz, /readyz
+std::vector<Route> page_routes();                      ///< the page at /
 
 /// All of them, and /openapi.json made from their table.
 Router make_router(Service& service);
+
+/// The schema of what PUT /baselines/{name} takes.
+nlohmann::json acceptance_schema();
 
 /// The OpenAPI 3.1 document of `routes`.
 nlohmann::json openapi_document(const std::vector<Route>& routes);

@@ -63,13 +63,13 @@ struct ReportPage {
 /// Every report, from the moment it is queued.
 class ReportArchive {
   public:
-    enum class Removal { not_found, cancelled, cancelling, deleted };
+    enum class Removal { not_found, cancelled, cancelling, deleted, accepted };
 
     virtual ~ReportArchive() = default;
     virtual std::optional<ReportRecord> find(const std::string& id) = 0;
     virtual ReportPage list(const ListFilter& filter) = 0;
     /// Cancels a queued report, asks the worker to cancel a running one, or deletes a final one together with the
-    /// pictures that no other report names.
+    /// pictures that no other report names. One that is accepted in a baseline stays.
     virtual Removal remove(const std::string& id) = 0;
 };
 

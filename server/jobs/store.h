@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "server/jobs/assets.h"
+#include "server/jobs/baselines.h"
 #include "server/jobs/blobs.h"
 #include "server/jobs/change_watch.h"
 #include "server/jobs/job_queue.h"
@@ -19,6 +20,7 @@ class Store {
     virtual ReportArchive& reports() = 0;
     virtual Blobs& blobs() = 0;
     virtual Assets& assets() = 0;
+    virtual Baselines& baselines() = 0;
     virtual Readiness& readiness() = 0;
     virtual std::unique_ptr<ChangeWatch> watch() = 0;
 };

@@ -6,6 +6,7 @@
 #include "renderer/core/errors.h"
 #include "renderer/core/exit_codes.h"
 #include "renderer/core/files.h"
+#include "server/worker/against.h"
 #include "server/worker/report_folder.h"
 #include "server/worker/scratch.h"
 
@@ -23,7 +24,8 @@ constexpr auto question_interval = 200ms;
 }  // namespace
 
 Attempt::Attempt(Store& store, const WorkerOptions& options, const ClockMs& clock, const Lease& lease, StopSignal& stop)
-    : m_queue(store.queue()),
+    : m_store(store),
+      m_queue(store.queue()),
       m_readiness(store.readiness()),
       m_options(options),
       m_clock(clock),
@@ -102,7 +104,9 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
         spdlog::info("job {} goes back to the queue", m_lease.id);
         m_queue.release(m_lease);
     } else if (result.status.code == exit_ok || result.status.code == exit_check_failed) {
-        const bool kept = m_queue.commit(m_lease, read_report_folder(out, m_lease, m_clock()));
+        FinishedReport finished = read_report_folder(out, m_lease, m_clock());
+        compare_with_baseline(m_store, finished);
+        const bool kept = m_queue.commit(m_lease, finished);
         spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before it ended");
     } else {
         conclude_failure(result.status);

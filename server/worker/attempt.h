@@ -25,6 +25,7 @@ class Attempt {
     void conclude(const ChildResult& result, const std::filesystem::path& out);
     void conclude_failure(const ExitStatus& status);
 
+    Store& m_store;
     JobQueue& m_queue;
     Readiness& m_readiness;
     const WorkerOptions& m_options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 
 #include "memory_state.h"
 #include "renderer/core/sha256.h"
@@ -110,6 +111,7 @@ class Reports : public ReportArchive {
             job.cancel_requested = true;
             return Removal::cancelling;
         }
+        if (std::ranges::count(state->accepted, id, &AcceptedReport::report_id) > 0) return Removal::accepted;
         state->jobs.erase(found);
         std::erase_if(state->blobs, [&](const auto& blob) { return !is_named(state, blob.first); });
         room_was_made(state);
@@ -193,6 +195,45 @@ class Uploads : public Assets {
     const Base& m_base;
 };
 
+class Named : public Baselines {
+  public:
+    explicit Named(const Base& base) : m_base(base) {}
+
+    Acceptance accept(const AcceptedReport& accepted) override {
+        const Writing state(*m_base.state);
+        const auto found = state->jobs.find(accepted.report_id);
+        if (found == state->jobs.end()) return Acceptance::not_found;
+        if (found->second.record.status != Status::done) return Acceptance::not_done;
+        const auto known = std::erase_if(state->accepted, [&](const AcceptedReport& one) {
+            return one.name == accepted.name && one.report_id == accepted.report_id;
+        });
+        state->accepted.push_back(accepted);
+        state->accepted.back().accepted_ms = m_base.clock();
+        return known > 0 ? Acceptance::renewed : Acceptance::added;
+    }
+
+    std::vector<AcceptedReport> list(const std::string& name) override {
+        const Reading state(*m_base.state);
+        std::vector<AcceptedReport> all;
+        for (const AcceptedReport& one : state->accepted)
+            if (name.empty() || one.name == name) all.push_back(one);
+        std::ranges::sort(all, [](const AcceptedReport& a, const AcceptedReport& b) {
+            return std::tuple(a.name, b.accepted_ms, b.report_id) < std::tuple(b.name, a.accepted_ms, a.report_id);
+        });
+        return all;
+    }
+
+    std::size_t forget(const std::string& name, const std::string& report_id) override {
+        const Writing state(*m_base.state);
+        return std::erase_if(state->accepted, [&](const AcceptedReport& one) {
+            return one.name == name && (report_id.empty() || one.report_id == report_id);
+        });
+    }
+
+  private:
+    const Base& m_base;
+};
+
 class Health : public Readiness {
   public:
     explicit Health(const Base& base) : m_base(base) {}
@@ -235,6 +276,7 @@ struct MemoryStore::Parts {
     memory_store::Reports reports{base};
     memory_store::Pictures blobs{base};
     memory_store::Uploads assets{base};
+    memory_store::Named baselines{base};
     memory_store::Health readiness{base};
 };
 
@@ -254,6 +296,9 @@ Blobs& MemoryStore::blobs() {
 }
 Assets& MemoryStore::assets() {
     return m_parts->assets;
+}
+Baselines& MemoryStore::baselines() {
+    return m_parts->baselines;
 }
 Readiness& MemoryStore::readiness() {
     return m_parts->readiness;

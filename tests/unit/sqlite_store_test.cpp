@@ -51,7 +51,8 @@ TEST_F(SqliteStoreTest, AnArchiveOfVersionOneIsBroughtUpToDate) {
     const std::string id = submit("kept");
     {
         SQLite::Database database(m_data.database().string(), SQLite::OPEN_READWRITE);
-        database.exec("DROP TABLE assets; DROP INDEX reports_that_died; DROP INDEX reports_set_back");
+        database.exec(
+            "DROP TABLE baselines; DROP TABLE assets; DROP INDEX reports_that_died; DROP INDEX reports_set_back");
         for (const char* column : {"setbacks", "not_before_ms", "lacks_room", "died_of"})
             database.exec(std::string("ALTER TABLE reports DROP COLUMN ") + column);
         database.exec("PRAGMA user_version = 1; PRAGMA application_id = 0");
@@ -59,6 +60,7 @@ TEST_F(SqliteStoreTest, AnArchiveOfVersionOneIsBroughtUpToDate) {
     SqliteStore again(m_data.root, m_rules, m_clock);
     EXPECT_TRUE(again.reports().find(id));
     EXPECT_TRUE(again.assets().list(1).empty());
+    EXPECT_TRUE(again.baselines().list("").empty());
     EXPECT_TRUE(again.queue().lease("worker"));
 }
 
