@@ -100,7 +100,8 @@ class Bench {
             [&](const Run& run) {
                 const std::lock_guard lock(m_busy);
                 m_maker->add(run);
-            });
+            },
+            m_maker->undecided());
     }
 
     void write(report::Report& report, const std::string& file) {

@@ -55,7 +55,13 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
 int exit_code_of(const report::Report& report) {
     if (std::ranges::count(report.checks, report::CheckOutcome::failed, &report::Check::came_out) > 0)
         return exit_check_failed;
-    return report.verdict == report::ReportVerdict::failed ? exit_render_failed : exit_ok;
+    if (report.verdict != report::ReportVerdict::failed) return exit_ok;
+    const auto is_failed = [](const auto& one) { return one.status == report::ResultStatus::failed; };
+    const bool is_rendered =
+        report.status == report::Status::done && std::ranges::none_of(report.runs, [&](const report::Run& run) {
+            return is_failed(run.reference) || std::ranges::any_of(run.results, is_failed);
+        });
+    return is_rendered ? exit_undecided : exit_render_failed;
 }
 
 int guarded(const std::function<int()>& action) {

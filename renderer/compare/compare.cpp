@@ -90,8 +90,11 @@ void measure(const Looks& looks, Target& target, Contenders& contenders, Workben
 }
 
 /// One point of the sweep: each stage, in order, fills in its part of the run.
-Run compare_point(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress) {
+Run compare_point(const Spec& spec, const SweepPoint& point, gl::Context& context, AssetReader& assets,
+                  const ProgressFunction& progress, const UndecidedFunction& is_undecided) {
     Run run;
+    run.point = point;
+    run.image = spec.image;
     Workbench bench(spec, context, progress, run.notes);
     EarlyTests early_tests(context);
     bench.tell(0, 0, 0, 1, "building the scene");
@@ -108,13 +111,13 @@ Run compare_point(const Spec& spec, gl::Context& context, AssetReader& assets, c
 
     Contenders contenders(spec, looks, target, bench, run);
     contenders.make();
+    compare_with_counterparts(run);
     contenders.prepare_sorting(geometry);
-    contenders.time();
+    contenders.time(is_undecided);
     count_fragments(looks, target, early_tests, contenders, bench, run);
     contenders.for_each(metrics_begin, metrics_begin, "asking",
                         [&](Method& method, MethodResult& result) { result.findings = bench.findings(method); });
     measure(looks, target, contenders, bench);
-    compare_with_counterparts(run);
     return run;
 }
 
@@ -125,7 +128,7 @@ Device describe_device(const gl::Context& context) {
 }
 
 void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress,
-             const RunFunction& take) {
+             const RunFunction& take, const UndecidedFunction& is_undecided) {
     const double share = 1.0 / static_cast<double>(spec.points.size());
     double begin = 0;
     for (const SweepPoint& point : spec.points) {
@@ -133,11 +136,7 @@ void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const 
         const ProgressFunction point_progress = [&](double fraction, const std::string& stage) {
             progress(begin + fraction * share, where.empty() ? stage : where + ": " + stage);
         };
-        const Spec point_spec = spec_at(spec, point);
-        Run run = compare_point(point_spec, context, assets, point_progress);
-        run.point = point;
-        run.image = point_spec.image;
-        take(run);
+        take(compare_point(spec_at(spec, point), point, context, assets, point_progress, is_undecided));
         begin += share;
     }
 }

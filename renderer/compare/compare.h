@@ -78,6 +78,7 @@ struct Run {
     std::string no_sort_reason;                  ///< why no sorting was timed although a method sorts
     std::string nothing_drawn;  ///< why there is nothing to compare, a sentence; "" if there is something
     int rounds_done = 0;
+    int looks = 0;  ///< how often the times were judged to see whether more rounds are needed; 0 if they never are
     std::vector<Note> notes;        ///< on the scene and its files
     std::vector<SourceFile> files;  ///< from which the scene is made
 };
@@ -93,6 +94,8 @@ Device describe_device(const gl::Context& context);
 using ProgressFunction = std::function<void(double fraction, const std::string& stage)>;
 /// Takes each finished run. Its pictures are freed afterwards: those of a whole sweep would not fit in memory.
 using RunFunction = std::function<void(const Run& run)>;
+/// Whether a check on a time of this run, whose times are those of the rounds so far, is undecided.
+using UndecidedFunction = std::function<bool(const Run& run)>;
 
 /// At every point of the sweep, renders every method of the spec and the reference, times the methods, and measures the
 /// differences.
@@ -101,7 +104,10 @@ using RunFunction = std::function<void(const Run& run)>;
 /// `failed` with the reason, and the others go on; the baseline must run twice. Throws RenderError if rendering fails
 /// as a whole: the scene cannot be made, or the device is lost (ContextLost). Throws SpecError for a file of the spec
 /// that `assets` cannot read, and if the user's own shading does not compile.
+///
+/// While `is_undecided` says so, the rounds are doubled, as long as the spec's time allows; without this function the
+/// spec's rounds are all.
 void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress,
-             const RunFunction& take);
+             const RunFunction& take, const UndecidedFunction& is_undecided = {});
 
 }  // namespace sheer

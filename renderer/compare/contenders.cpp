@@ -10,6 +10,12 @@
 
 namespace sheer {
 
+namespace {
+
+constexpr int most_looks = 16;
+
+}  // namespace
+
 void Contenders::attempt_for(MethodResult& result, const std::string& doing, const std::function<void()>& step) {
     if (m_bench.attempt_for(result, doing, step) || result.method.label != m_spec.baseline) return;
     m_run.baseline_again.clear();
@@ -66,22 +72,32 @@ void Contenders::prepare_sorting(const Geometry& geometry) {
     m_sort.reset();
 }
 
-void Contenders::time() {
-    using Clock = std::chrono::steady_clock;
-    const auto begin = Clock::now();
-    const auto rounds = static_cast<std::size_t>(m_spec.timing.rounds);
-    double done_s = 0, longest_s = 0;
+void Contenders::time(const UndecidedFunction& is_undecided) {
     Random random(1);
-    for (std::size_t round = 0; round < rounds && !m_all.empty(); ++round) {
-        if (round > 0 && done_s + longest_s > m_spec.timing.max_seconds) break;
-        m_bench.tell(timing_begin, counting_begin, round, rounds,
-                     fmt::format("timing round {} of {}", round + 1, rounds));
-        time_round(random);
-        const double now_s = std::chrono::duration<double>(Clock::now() - begin).count();
-        longest_s = std::max(longest_s, now_s - done_s);
-        done_s = now_s;
-        m_run.rounds_done = static_cast<int>(round) + 1;
+    RoundClock clock;
+    bool has_time = time_rounds(m_spec.timing.rounds, random, clock);
+    if (!is_undecided) return;
+    m_run.looks = 1;
+    while (has_time && !m_all.empty() && m_run.looks < most_looks && is_undecided(m_run)) {
+        const int before = m_run.rounds_done;
+        has_time = time_rounds(2 * before, random, clock);
+        if (m_run.rounds_done > before) ++m_run.looks;
     }
+}
+
+bool Contenders::time_rounds(int count, Random& random, RoundClock& clock) {
+    while (m_run.rounds_done < count && !m_all.empty()) {
+        if (m_run.rounds_done > 0 && clock.done_s + clock.longest_s > m_spec.timing.max_seconds) return false;
+        m_bench.tell(timing_begin, counting_begin, static_cast<std::size_t>(m_run.rounds_done),
+                     static_cast<std::size_t>(count),
+                     fmt::format("timing round {} of {}", m_run.rounds_done + 1, count));
+        time_round(random);
+        const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock.begin).count();
+        clock.longest_s = std::max(clock.longest_s, now_s - clock.done_s);
+        clock.done_s = now_s;
+        ++m_run.rounds_done;
+    }
+    return true;
 }
 
 void Contenders::time_round(Random& random) {

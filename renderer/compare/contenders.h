@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,8 +28,9 @@ class Contenders {
     void prepare_sorting(const Geometry& geometry);
     /// Rounds in which every method renders one frame, each round in a new random order: frames close in time share the
     /// state of the machine, and no method always follows the same other one. No round begins that would exceed the
-    /// time limit if it took as long as the longest so far.
-    void time();
+    /// time limit if it took as long as the longest so far. If there is `is_undecided`, it is asked after the spec's
+    /// rounds, and again each time that their number has doubled.
+    void time(const UndecidedFunction& is_undecided);
     /// Runs `step` for each remaining method; this takes the job's progress from the fraction `from` to `to`.
     void for_each(double from, double to, const std::string& doing,
                   const std::function<void(Method&, MethodResult&)>& step);
@@ -43,9 +45,17 @@ class Contenders {
         std::vector<double>& sort_ms(Run& run) const { return again ? run.baseline_again_sort_ms : result->sort_ms; }
     };
 
+    /// The time that the rounds take.
+    struct RoundClock {
+        std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+        double done_s = 0, longest_s = 0;
+    };
+
     void attempt_for(MethodResult& result, const std::string& doing, const std::function<void()>& step);
     std::unique_ptr<Method> make_warm(const MethodSpec& method);
     void time_round(Random& random);
+    /// Until there are this many rounds, or the time is over, which it returns.
+    bool time_rounds(int count, Random& random, RoundClock& clock);
     void drop_failed();
 
     const Spec& m_spec;

@@ -67,14 +67,17 @@ std::optional<NoiseFloor> noise_of(const report::Run& run) {
 /// Which of two methods is faster.
 class Race {
   public:
-    Race(const report::Run& run, const std::string& baseline) : m_baseline(baseline), m_noise(noise_of(run)) {}
+    Race(const report::Run& run, const std::string& baseline)
+        : m_baseline(baseline),
+          m_noise(noise_of(run)),
+          m_error_rate(error_rate_of_look(static_cast<int>(run.rounds.looks))) {}
 
     bool is_faster(const Candidate& one, const Candidate& other) const {
         if (other.label == m_baseline) return one.verdict() == Verdict::faster;
         if (one.label == m_baseline) return other.verdict() == Verdict::slower;
         const std::vector<double> ratios = paired_ratios(other.samples, one.samples);
         if (ratios.empty() || !one.speedup) return false;
-        return judge_speedup(ratios, one.speedup->compared, m_noise).verdict == Verdict::faster;
+        return judge_speedup(ratios, one.speedup->compared, m_noise, m_error_rate).verdict == Verdict::faster;
     }
 
     /// "" if the other one does not dominate it.
@@ -92,6 +95,7 @@ class Race {
   private:
     const std::string& m_baseline;
     std::optional<NoiseFloor> m_noise;
+    double m_error_rate;
 };
 
 /// A method and those with which it ties.

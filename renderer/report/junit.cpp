@@ -84,8 +84,9 @@ class JunitSuite {
     pugi::xml_node m_suite;
 };
 
-void add_checks(const std::vector<report::Check>& checks, JunitSuite& suite) {
-    for (const report::Check& check : checks) {
+void add_checks(const Report& report, JunitSuite& suite) {
+    const std::string on_undecided = report.spec.value("on_undecided", "neutral");
+    for (const report::Check& check : report.checks) {
         const std::string name = check_name(check);
         const std::string text = fmt::format("is {}, wanted{}{}", check_value(check), check_limits(check),
                                              check.reason.empty() ? "" : ": " + check.reason);
@@ -94,7 +95,13 @@ void add_checks(const std::vector<report::Check>& checks, JunitSuite& suite) {
                 suite.pass(name);
                 break;
             case report::CheckOutcome::undecided:
-                suite.skip(name, "undecided: " + text);
+                if (on_undecided == "pass") {
+                    suite.pass(name);
+                } else if (on_undecided == "fail") {
+                    suite.fail(name, "undecided: " + text);
+                } else {
+                    suite.skip(name, "undecided: " + text);
+                }
                 break;
             case report::CheckOutcome::failed:
                 suite.fail(name, text);
@@ -132,7 +139,7 @@ void add_results(const std::vector<report::Run>& runs, JunitSuite& suite) {
 
 std::string report_junit(const Report& report) {
     JunitSuite suite(report.title(), report.created_at, report.notes);
-    add_checks(report.checks, suite);
+    add_checks(report, suite);
     add_results(report.runs, suite);
     if (report.status != report::Status::done)
         suite.err("the comparison ends",

@@ -96,7 +96,7 @@ class RunWriter {
         run.point = m_run.point;
         run.reference = reference();
         run.rounds = {static_cast<std::size_t>(m_spec.timing.rounds), static_cast<std::size_t>(m_run.rounds_done),
-                      m_timings.needed_rounds()};
+                      m_timings.needed_rounds(), static_cast<std::size_t>(m_run.looks)};
         run.noise_floor = m_timings.noise();
         run.nothing_drawn = m_run.nothing_drawn;
         run.notes = m_run.notes;
@@ -344,19 +344,32 @@ void judge(Report& report) {
     };
     const auto failed_checks = count(report::CheckOutcome::failed), open = count(report::CheckOutcome::undecided);
     std::vector<std::string> reasons = failures(report.runs);
-    report.verdict = failed_checks > 0 || !reasons.empty() ? failed
-                     : open > 0                            ? undecided
-                     : checks == 0                         ? none
-                                                           : passed;
+    const std::string on_undecided = report.spec.value("on_undecided", "neutral");
+    const bool fails = failed_checks > 0 || !reasons.empty() || (open > 0 && on_undecided == "fail");
+    report.verdict = fails ? failed : open > 0 && on_undecided == "neutral" ? undecided : checks == 0 ? none : passed;
     for (const report::Run& run : report.runs)
         if (!run.nothing_drawn.empty()) {
             const std::string at = run.point.empty() ? "" : "at " + describe_point(run.point) + ": ";
             reasons.push_back(at + run.nothing_drawn);
         }
-    if (open > 0) reasons.insert(reasons.begin(), fmt::format("{} of {} checks undecided", open, checks));
+    if (open > 0) {
+        const std::string counts = on_undecided == "fail"   ? ", which counts as failed"
+                                   : on_undecided == "pass" ? ", which counts as passed"
+                                                            : "";
+        reasons.insert(reasons.begin(), fmt::format("{} of {} checks undecided{}", open, checks, counts));
+    }
     if (failed_checks > 0)
         reasons.insert(reasons.begin(), fmt::format("{} of {} checks failed", failed_checks, checks));
     report.verdict_reason = fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+void require_checks(Report& report) {
+    if (!report.checks.empty()) return;
+    report.checks.push_back({.metric = "checks",
+                             .method = "the gate",
+                             .outcome = report::CheckOutcome::failed,
+                             .reason = "the spec has none, so the gate would let everything pass"});
+    judge(report);
 }
 
 ReportMaker::ReportMaker(const Spec& spec, const Device& device, PictureSink* pictures, const std::string& created_at)
@@ -371,6 +384,19 @@ ReportMaker::ReportMaker(const Spec& spec, const Device& device, PictureSink* pi
 
 void ReportMaker::add(const Run& run) {
     m_report.runs.push_back(RunWriter(m_spec, run, m_software, m_pictures, run_prefix(m_spec, runs())).write());
+}
+
+UndecidedFunction ReportMaker::undecided() const {
+    std::vector<CheckSpec> timed;
+    for (const CheckSpec& check : m_spec.checks)
+        if (const Quantity* quantity = find_quantity(check.metric); quantity && quantity->has_interval)
+            timed.push_back(check);
+    if (timed.empty()) return {};
+    return [this, timed](const Run& run) {
+        const std::vector<report::Check> checks =
+            check_all(timed, {RunWriter(m_spec, run, m_software, nullptr, "").write()});
+        return std::ranges::count(checks, report::CheckOutcome::undecided, &report::Check::came_out) > 0;
+    };
 }
 
 Report ReportMaker::finish() {

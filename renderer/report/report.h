@@ -14,6 +14,8 @@ class ReportMaker {
     /// Without `pictures` the report has none. `created_at` is UTC, RFC 3339. References and pointer must outlive it.
     ReportMaker(const Spec& spec, const Device& device, PictureSink* pictures, const std::string& created_at);
     void add(const Run& run);
+    /// For compare(): whether the spec's checks on times are undecided in a run. Null if it has no such checks.
+    UndecidedFunction undecided() const;
     /// Once, after the last run.
     report::Report finish();
     /// Instead, once, if not every point was rendered: the report of those that were. Its verdict is "failed", whatever
@@ -31,6 +33,9 @@ class ReportMaker {
 /// Sets a report's verdict and its reason by its checks and results. A result that could not be rendered is a failure,
 /// whether or not a check needs it.
 void judge(report::Report& report);
+
+/// For a gate: without any checks, adds one that fails, and judges the report again.
+void require_checks(report::Report& report);
 
 /// The command line's options for rendering on this device again, preceded by a space; "" if it has no name.
 std::string context_arguments(const Device& device);

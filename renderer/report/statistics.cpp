@@ -11,8 +11,6 @@ namespace sheer {
 
 namespace {
 
-constexpr double error_rate = 0.05;
-
 double median_deviation(const std::vector<double>& samples, double middle) {
     std::vector<double> deviations;
     for (const double sample : samples) deviations.push_back(std::abs(sample - middle));
@@ -20,6 +18,10 @@ double median_deviation(const std::vector<double>& samples, double middle) {
 }
 
 }  // namespace
+
+double error_rate_of_look(int look) {
+    return std::ldexp(full_error_rate, -look);
+}
 
 std::optional<report::Interval> interval_of(const std::optional<std::pair<double, double>>& pair) {
     return pair ? std::optional(report::Interval{pair->first, pair->second}) : std::nullopt;
@@ -71,7 +73,7 @@ std::vector<double> paired_ratios(const std::vector<double>& baseline, const std
 }
 
 NoiseFloor noise_floor(const std::vector<double>& ratios) {
-    NoiseFloor noise{median(ratios), median_interval(ratios, error_rate), 1};
+    NoiseFloor noise{median(ratios), median_interval(ratios, full_error_rate), 1};
     const auto [least, greatest] = std::ranges::minmax(ratios);
     const auto [low, high] = noise.ci95.value_or(std::pair(least, greatest));
     noise.factor = std::max({1.0, high, low > 0 ? 1 / low : std::numeric_limits<double>::infinity()});
@@ -93,7 +95,7 @@ Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>
     return speedup;
 }
 
-std::size_t rounds_needed(std::size_t compared) {
+std::size_t rounds_needed(std::size_t compared, double error_rate) {
     // The widest pair of ranks, the least and the greatest sample, misses the median if all samples lie on one side of
     // it.
     std::size_t rounds = 1;
@@ -105,13 +107,14 @@ std::size_t rounds_needed(std::size_t compared) {
     return rounds;
 }
 
-Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise) {
+Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise,
+                      double error_rate) {
     return judge_ratio(median(ratios), median_interval(ratios, error_rate / static_cast<double>(compared)),
                        noise ? noise->factor : 1,
-                       fmt::format("too few rounds: {}, needs {}", ratios.size(), rounds_needed(compared)));
+                       fmt::format("too few rounds: {}, needs {}", ratios.size(), rounds_needed(compared, error_rate)));
 }
 
-Summary summarize(std::vector<double> samples) {
+Summary summarize(std::vector<double> samples, double error_rate) {
     Summary summary;
     summary.median = median(samples);
     summary.mad = median_deviation(samples, summary.median);

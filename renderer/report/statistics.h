@@ -9,6 +9,15 @@
 
 namespace sheer {
 
+/// Of all looks together: an interval misses with at most this probability.
+inline constexpr double full_error_rate = 0.05;
+
+/// The error rate of one look at growing samples, from 1: alpha spending (Lan and DeMets, Discrete Sequential
+/// Boundaries for Clinical Trials, 1983) that gives look k the share 2^-k. The shares of any number of looks add up to
+/// less than full_error_rate, so by the union bound the intervals of all looks hold together with that rate, whatever
+/// the looks depend on. 0: the samples are looked at once.
+double error_rate_of_look(int look);
+
 /// As reports have it.
 std::optional<report::Interval> interval_of(const std::optional<std::pair<double, double>>& pair);
 
@@ -22,7 +31,7 @@ struct Summary {
 };
 
 /// Throws std::invalid_argument if there are no samples.
-Summary summarize(std::vector<double> samples);
+Summary summarize(std::vector<double> samples, double error_rate = full_error_rate);
 
 double median(std::vector<double> samples);
 
@@ -75,9 +84,10 @@ Speedup judge_ratio(double value, const std::optional<std::pair<double, double>>
                     const std::string& no_interval_reason);
 
 /// The fewest rounds that give judge_speedup() an interval.
-std::size_t rounds_needed(std::size_t compared);
+std::size_t rounds_needed(std::size_t compared, double error_rate = full_error_rate);
 
 /// `ratios` must not be empty; `compared`, at least 1, is the number of methods compared with the baseline.
-Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise);
+Speedup judge_speedup(const std::vector<double>& ratios, std::size_t compared, const std::optional<NoiseFloor>& noise,
+                      double error_rate = full_error_rate);
 
 }  // namespace sheer

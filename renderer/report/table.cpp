@@ -129,9 +129,14 @@ std::string captions(const report::Run& run, const std::string& baseline) {
     if (reference.residual.depth_peeling)
         text += fmt::format(" Residual to depth peeling {}.", number_text(*reference.residual.depth_peeling, 2));
     if (reference.rounded) text += fmt::format("\n{}: the error of the image format alone.", reference.rounded->label);
-    const auto [asked, done, needed] = run.rounds;
+    const auto [asked, done, needed, looks] = run.rounds;
     text += fmt::format("\nSpeedup over {}, {} of {} rounds{}.", baseline, done, asked,
                         done < asked ? ", ended by max_seconds" : "");
+    if (looks > 1)
+        text += fmt::format(
+            " Checks were undecided, so their times were looked at {} times; the intervals of all looks "
+            "together have 95 % confidence.",
+            looks);
     if (done < needed) text += fmt::format(" Too few rounds: {}, needs {}; nothing is resolved.", done, needed);
     text += "\nIt is the median of the ratios round by round, not the ratio of the medians.";
     if (std::ranges::any_of(run.results, sorts))

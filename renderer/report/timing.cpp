@@ -12,8 +12,8 @@ namespace {
 
 using Samples = std::vector<gl::FrameSample>;
 
-report::TimeSummary summary_of(const std::vector<double>& times, report::Clock clock) {
-    const Summary summary = summarize(times);
+report::TimeSummary summary_of(const std::vector<double>& times, report::Clock clock, double error_rate) {
+    const Summary summary = summarize(times, error_rate);
     return {.samples = times,
             .outliers = outliers(times),
             .median = summary.median,
@@ -94,7 +94,7 @@ std::string Timings::no_baseline_reason() const {
 }
 
 std::size_t Timings::needed_rounds() const {
-    return rounds_needed(compared_in(m_run));
+    return rounds_needed(compared_in(m_run), error_rate());
 }
 
 double Timings::median_ms(const MethodResult& result) const {
@@ -103,12 +103,13 @@ double Timings::median_ms(const MethodResult& result) const {
 
 OrReason<report::TimeSummary> Timings::sort(const MethodResult& result) const {
     if (result.sort_ms.empty()) return {{}, result.sorts ? m_run.no_sort_reason : "the method needs no sorting"};
-    return {summary_of(result.sort_ms, report::Clock::wall), ""};
+    return {summary_of(result.sort_ms, report::Clock::wall, error_rate()), ""};
 }
 
 report::Timing Timings::timing(const MethodResult& result) const {
     const Samples& samples = result.samples;
-    report::Timing timing{summary_of(times(samples), m_gpu_clock ? report::Clock::gpu : report::Clock::wall)};
+    report::Timing timing{
+        summary_of(times(samples), m_gpu_clock ? report::Clock::gpu : report::Clock::wall, error_rate())};
     timing.initialization = phase_median(samples, gl::Phase::initialization);
     timing.finalization = phase_median(samples, gl::Phase::finalization);
     timing.passes = passes(samples);
@@ -180,7 +181,7 @@ std::optional<report::Speedup> Timings::judged(const std::vector<double>& theirs
                                                std::size_t compared, const std::optional<NoiseFloor>& noise) const {
     const std::vector<double> ratios = paired_ratios(theirs, own);
     if (ratios.empty()) return std::nullopt;
-    const Speedup speedup = judge_speedup(ratios, compared, noise);
+    const Speedup speedup = judge_speedup(ratios, compared, noise, error_rate());
     return report::Speedup{.value = speedup.value,
                            .ci95 = interval_of(speedup.ci95),
                            .verdict = speedup.verdict,

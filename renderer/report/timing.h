@@ -43,6 +43,9 @@ class Timings {
     const MethodResult* baseline() const;
     std::string no_baseline_reason() const;
 
+    /// Of the last look at the samples.
+    double error_rate() const { return error_rate_of_look(m_run.looks); }
+
     const Run& m_run;
     const std::string& m_baseline;
     bool m_gpu_clock;

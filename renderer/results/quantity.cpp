@@ -47,6 +47,7 @@ Quantity speedup(const std::string& name, const std::string& head, const std::st
             .summary = summary,
             .is_timed = table == Quantity::Table::speedups,
             .is_speedup = true,
+            .has_interval = true,
             .measure = [member](const Result& result) -> std::optional<Measured> {
                 const auto& found = result.*member;
                 if (!found) return std::nullopt;
@@ -76,7 +77,7 @@ Quantity fragment_count(const std::string& name, const std::string& head, const 
 
 Quantity median_time() {
     Quantity median = time("median", "Median", "Median of the timed frames", &report::Timing::median);
-    median.is_timed = true;
+    median.is_timed = median.has_interval = true;
     median.measure = [](const Result& result) -> std::optional<Measured> {
         if (!result.timing) return std::nullopt;
         return within(result.timing->median, result.timing->ci95);
@@ -93,6 +94,7 @@ Quantity sort_time() {
         .unit = "ms",
         .summary =
             "Recomputing the order, which the timed frames leave out: keys, sort and upload of the scene's primitives",
+        .has_interval = true,
         .measure = [](const Result& result) -> std::optional<Measured> {
             if (!result.timing || !result.timing->sort) return std::nullopt;
             return within(result.timing->sort->median, result.timing->sort->ci95);
@@ -187,6 +189,7 @@ Quantity change_speedup() {
             .unit = "×",
             .summary = "Median of the times in the other look over those in its own, round by round",
             .is_speedup = true,
+            .has_interval = true,
             .measure = [](const Result& result) -> std::optional<Measured> {
                 if (!result.change || !result.change->speedup) return std::nullopt;
                 return within(result.change->speedup->value, result.change->speedup->ci95);

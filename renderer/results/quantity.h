@@ -30,6 +30,7 @@ struct Quantity {
     bool is_timed = false;    ///< the methods that may be called fastest are marked in its column
     bool is_speedup = false;  ///< it is shown with its interval and verdict
     bool can_be_checked = true;
+    bool has_interval = false;       ///< checks of it may be undecided
     std::optional<int> digits = {};  ///< significant digits of the smallest value in a column
     TerminalColumn terminal = {};    ///< of the terminal's tables
     std::function<std::optional<Measured>(const report::Result&)> measure;

@@ -81,8 +81,11 @@ const Description<report::Rounds>& description_of() {
     static const auto description =
         Description<report::Rounds>("Rounds", "timed frames of each method")
             .member(&report::Rounds::asked, "asked", "number in the spec")
-            .member(&report::Rounds::done, "done", "fewer if max_seconds ended them")
-            .member(&report::Rounds::needed, "needed", "number without which speedups have no intervals");
+            .member(&report::Rounds::done, "done", "fewer if max_seconds ended them, more if checks were undecided")
+            .member(&report::Rounds::needed, "needed", "number without which speedups have no intervals")
+            .member(&report::Rounds::looks, "looks",
+                    "how often checks on times were judged, each time with twice the rounds; all intervals are so wide "
+                    "that those of all looks hold together (docs/measuring.md); 0 without such checks");
     return description;
 }
 

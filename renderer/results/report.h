@@ -143,7 +143,7 @@ struct Reference {
 };
 
 struct Rounds {
-    std::size_t asked = 0, done = 0, needed = 0;
+    std::size_t asked = 0, done = 0, needed = 0, looks = 0;
 };
 
 struct Dominated {

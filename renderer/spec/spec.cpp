@@ -83,16 +83,22 @@ std::vector<Param> spec_fields() {
         optional_text("baseline",
                       "label or id of the method with which times are compared; by default b2f, or the first method if "
                       "there is no b2f"),
-        Param::object("timing", "how long each method is timed",
-                      {Param::integer("warmup", "frames before timing", "frames", 1, 1, 100),
-                       Param::integer("rounds", "timed frames of each method", "frames", 10, 1, 1000),
-                       Param::number("max_seconds", "no round begins after this", "s", 60, 0.001, 3600)}),
+        Param::object(
+            "timing", "how long each method is timed",
+            {Param::integer("warmup", "frames before timing", "frames", 1, 1, 100),
+             Param::integer("rounds", "timed frames of each method; doubled while checks on times are undecided",
+                            "frames", 10, 1, 1000),
+             Param::number("max_seconds", "no round begins after this", "s", 60, 0.001, 3600)}),
         optional_text("suite", "id of the published measurement that this one repeats, see GET /suites"),
         any("sweep",
             "an array of axes, each {pointer, values} or {points}; the comparison is made at every point of their "
             "Cartesian product",
             json::array(), max_sweeps),
         Param::list("checks", "conditions for the report to pass", check_fields(), 0, 256),
+        Param::choice(
+            "on_undecided",
+            "what a check counts as that is undecided when the time is over: neutral is told and fails nothing",
+            "neutral", {"pass", "fail", "neutral"}),
         optional_text("against",
                       "baseline:NAME or the id of a report: the service compares pictures and times with that report"),
         any("under_test", "JSON pointers into the spec of what may differ from the report of `against`", json::array(),

@@ -28,6 +28,7 @@ struct CompareArguments {
     Source source;
     std::string out, junit;
     gl::ContextRequest context;
+    bool gate = false;
 };
 
 void write_report(const report::Report& report, const fs::path& folder) {
@@ -96,7 +97,8 @@ class Comparison {
             [&](const Run& run) {
                 const std::lock_guard lock(m_busy);
                 m_maker->add(run);
-            });
+            },
+            m_maker->undecided());
     }
 
     // The following functions are called with m_busy locked.
@@ -104,6 +106,7 @@ class Comparison {
     void finish() {
         report::Report report = m_maker->finish();
         m_maker.reset();
+        if (m_options.gate) require_checks(report);
         keep(std::move(report), true);
         m_junit.write(m_report);
     }
@@ -182,6 +185,7 @@ void add_compare(CLI::App& app, int& exit_code) {
     add_source_options(*command, options->source);
     command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
     command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
+    command->add_flag("--gate", options->gate, "Fail if the spec has no checks");
     add_context_options(*command, options->context);
     command->callback([options, &exit_code] { exit_code = guarded([&] { return Comparison(*options).run(); }); });
 }

@@ -61,7 +61,7 @@ int run_render(const RenderArguments& options) {
             [](double fraction, const std::string& stage) {
                 say({{"progress", fraction}, {"stage", stage}});
             },
-            [&](const Run& run) { maker.add(run); });
+            [&](const Run& run) { maker.add(run); }, maker.undecided());
         const report::Report report = maker.finish();
         write_file(std::filesystem::path(options.out) / "report.json", json_line(to_document(report)));
         return report.verdict == report::ReportVerdict::failed ? exit_check_failed : exit_ok;

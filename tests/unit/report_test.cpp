@@ -152,9 +152,89 @@ TEST_F(ReportFixture, AChangeIsComparedWithTheSameMethodInTheOtherLook) {
     EXPECT_THAT(table_of(report()), HasSubstr("Change from F2BD <1> to new: the picture is different, mean FLIP"));
 }
 
+/// Times of b2f over times of f2bd: 2 in each round but two, in which it is 1 and 4.
+struct UndecidedFixture : ReportFixture {
+    UndecidedFixture() {
+        json document = spec.normalised;
+        document["checks"] = {{{"metric", "speedup"}, {"method", "F2BD <1>"}, {"min", 1.9}}};
+        spec = parse_spec(document);
+        runs[0].results[1].samples[0] = sample(10, 9);
+        runs[0].results[1].samples[1] = sample(5, 4.5);
+    }
+};
+
+TEST_F(UndecidedFixture, MoreRoundsAreAskedForUntilTheIntervalDecides) {
+    ReportMaker maker(spec, device, nullptr, "2026-01-01T00:00:00.000Z");
+    const UndecidedFunction is_undecided = maker.undecided();
+    ASSERT_TRUE(is_undecided);
+    sheer::Run& run = runs[0];
+    run.looks = 1;
+    EXPECT_TRUE(is_undecided(run)) << "six rounds are too few for an interval of the first look";
+    const auto add_rounds = [&](int rounds) {
+        for (int i = 0; i < rounds; ++i) {
+            run.results[0].samples.push_back(sample(10, 9));
+            run.results[1].samples.push_back(sample(5, 4.5));
+            run.baseline_again.push_back(sample(10, 9));
+        }
+    };
+    add_rounds(6);
+    run.looks = 2;
+    EXPECT_FALSE(is_undecided(run)) << "the least but one of 12 ratios is 2";
+    spec.checks.clear();
+    EXPECT_FALSE(ReportMaker(spec, device, nullptr, "").undecided()) << "there is nothing that more rounds decide";
+}
+
+TEST_F(UndecidedFixture, TheIntervalIsThatOfTheLook) {
+    // 12 ratios: ranks 3 and 10 at 0.05, 2 and 11 at 0.0125.
+    for (int i = 0; i < 6; ++i) {
+        runs[0].results[0].samples.push_back(sample(10, 9));
+        runs[0].results[1].samples.push_back(sample(10 / (2.1 + 0.1 * i), 4));
+    }
+    const auto interval = [&] { return report()["runs"][0]["results"][1]["speedup"]["ci95"]; };
+    // Sorted: 1, 2, 2, 2, 2, 2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 4.
+    EXPECT_NEAR(interval()[1].get<double>(), 2.5, 1e-9);
+    runs[0].looks = 2;
+    EXPECT_NEAR(interval()[1].get<double>(), 2.6, 1e-9);
+    EXPECT_EQ(report()["runs"][0]["rounds"]["looks"], 2);
+}
+
+TEST_F(UndecidedFixture, TheSpecSaysWhatUndecidedCountsAs) {
+    const auto with = [&](const std::string& counts) {
+        json document = spec.normalised;
+        document["on_undecided"] = counts;
+        spec = parse_spec(document);
+        return report();
+    };
+    json made = with("neutral");
+    EXPECT_EQ(made["verdict"], "undecided");
+    EXPECT_EQ(made["verdict_reason"], "1 of 1 checks undecided");
+    EXPECT_EQ(exit_code_of(made), 0);
+    EXPECT_THAT(junit_of(made), HasSubstr("<skipped message=\"undecided: "));
+    made = with("fail");
+    EXPECT_EQ(made["verdict"], "failed");
+    EXPECT_EQ(made["verdict_reason"], "1 of 1 checks undecided, which counts as failed");
+    EXPECT_EQ(made["checks"][0]["outcome"], "undecided");
+    EXPECT_EQ(exit_code_of(made), 5);
+    EXPECT_THAT(junit_of(made), HasSubstr("<failure message=\"undecided: "));
+    made = with("pass");
+    EXPECT_EQ(made["verdict"], "passed");
+    EXPECT_EQ(exit_code_of(made), 0);
+    EXPECT_THAT(junit_of(made), Not(HasSubstr("undecided")));
+}
+
+TEST_F(ReportFixture, AGateWithoutChecksFails) {
+    spec.checks.clear();
+    auto made = from_document<report::Report>(report());
+    EXPECT_EQ(made.verdict, report::ReportVerdict::none);
+    require_checks(made);
+    EXPECT_EQ(made.verdict, report::ReportVerdict::failed);
+    EXPECT_EQ(cli::exit_code_of(made), 1);
+    EXPECT_THAT(report_junit(made), HasSubstr("name=\"checks of the gate\""));
+}
+
 TEST_F(ReportFixture, TheBaselineIsComparedWithItself) {
     const json run = report()["runs"][0];
-    EXPECT_EQ(run["rounds"], json({{"asked", 10}, {"done", 6}, {"needed", 6}}));
+    EXPECT_EQ(run["rounds"], json({{"asked", 10}, {"done", 6}, {"needed", 6}, {"looks", 0}}));
     EXPECT_EQ(run["noise_floor"]["method"], "b2f");
     // Ratios, like everything else in it: 10 / 10.5 in each round.
     ASSERT_EQ(run["noise_floor"]["samples"].size(), 6u);

@@ -9,6 +9,8 @@
 #include <functional>
 #include <random>
 
+#include "renderer/core/random.h"
+
 namespace sheer::statistics_test {
 
 namespace {
@@ -222,6 +224,41 @@ TEST(Verdict, TheIntervalContainsTheTrueRatio) {
         }
         EXPECT_GE(held, trials * 94 / 100) << noise.name;
     }
+}
+
+TEST(Looks, AllTogetherSpendNoMoreThanTheFullRate) {
+    EXPECT_EQ(error_rate_of_look(0), 0.05);
+    EXPECT_EQ(error_rate_of_look(1), 0.025);
+    EXPECT_EQ(error_rate_of_look(3), 0.00625);
+    double spent = 0;
+    for (int look = 1; look <= 16; ++look) spent += error_rate_of_look(look);
+    EXPECT_LT(spent, 0.05);
+    // 2 * 2^-6 is over 0.025 and 2 * 2^-7 is not; one look at 0.05 needs 6.
+    EXPECT_EQ(rounds_needed(1, error_rate_of_look(1)), 7u);
+    EXPECT_EQ(rounds_needed(1), 6u);
+}
+
+/// Ratios whose median is 1, looked at after 10, 20, ... 320 of them: how often any interval excludes 1.
+double share_of_wrong_decisions(bool spends) {
+    constexpr int trials = 2000;
+    Random random(7);
+    int wrong = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        std::vector<double> ratios;
+        bool is_wrong = false;
+        for (int look = 1; look <= 6; ++look) {
+            while (ratios.size() < (std::size_t{5} << look)) ratios.push_back(0.5 + random.unit());
+            const auto interval = median_interval(ratios, error_rate_of_look(spends ? look : 0));
+            is_wrong |= interval && (interval->first > 1 || interval->second < 1);
+        }
+        wrong += is_wrong;
+    }
+    return static_cast<double>(wrong) / trials;
+}
+
+TEST(Looks, TheErrorRateHoldsHoweverOftenItIsLookedAt) {
+    EXPECT_LT(share_of_wrong_decisions(true), 0.05);
+    EXPECT_GT(share_of_wrong_decisions(false), 0.07) << "without alpha spending it would not hold";
 }
 
 }  // namespace
