@@ -14,8 +14,8 @@
 #include "renderer/params/json_text.h"
 #include "renderer/report/report.h"
 #include "server/cli/commands.h"
-#include "server/cli/junit_file.h"
 #include "server/cli/output_folder.h"
+#include "server/cli/outputs.h"
 #include "server/cli/rendering.h"
 
 namespace sheer::cli {
@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
     Source source;
-    std::string out, junit;
+    std::string out;
+    OutputOptions outputs;
     gl::ContextRequest context;
-    bool gate = false;
 };
 
 void write_report(const report::Report& report, const fs::path& folder) {
@@ -41,7 +41,7 @@ void write_report(const report::Report& report, const fs::path& folder) {
 class Comparison {
   public:
     explicit Comparison(const CompareArguments& options)
-        : m_options(options), m_created_at(utc_now()), m_junit(options.junit, options.source.spec, options.out) {}
+        : m_options(options), m_created_at(utc_now()), m_outputs(options.outputs, options.source.spec, options.out) {}
 
     int run() {
         {
@@ -59,7 +59,8 @@ class Comparison {
                 throw;
             }
         }
-        fmt::print("{}", report_table(m_report));
+        m_outputs.print(m_report);
+        if (m_options.outputs.quiet || m_options.outputs.json) return exit_code_of(m_report);
         if (m_place.empty()) {
             fmt::print("\nAdd --out DIR to keep the pictures and the report.\n");
         } else {
@@ -92,7 +93,7 @@ class Comparison {
             *m_spec, *context, assets,
             [&](double fraction, const std::string& stage) {
                 const std::lock_guard lock(m_busy);
-                progress.show(fraction, stage);
+                if (!m_options.outputs.quiet) progress.show(fraction, stage);
             },
             [&](const Run& run) {
                 const std::lock_guard lock(m_busy);
@@ -106,9 +107,9 @@ class Comparison {
     void finish() {
         report::Report report = m_maker->finish();
         m_maker.reset();
-        if (m_options.gate) require_checks(report);
+        if (m_options.outputs.gate) require_checks(report);
         keep(std::move(report), true);
-        m_junit.write(m_report);
+        m_outputs.write(m_report);
     }
 
     void keep(report::Report report, bool complete) {
@@ -124,15 +125,15 @@ class Comparison {
     std::size_t keep_finished(report::Status status, const std::string& title, const std::string& detail) {
         const std::size_t points = m_maker ? m_maker->runs() : 0;
         if (points == 0) {
-            m_junit.write_error(title, detail);
+            m_outputs.write_error(title, detail);
             if (m_folder) m_folder->discard();
             return 0;
         }
         report::Report report = m_maker->finish_early(status, title, detail);
         m_maker.reset();
-        m_junit.write(report);
+        m_outputs.write(report);
         keep(std::move(report), false);
-        fmt::print("{}", report_table(m_report));
+        m_outputs.print(m_report);
         return points;
     }
 
@@ -166,7 +167,7 @@ class Comparison {
 
     const CompareArguments& m_options;
     const std::string m_created_at;
-    const JunitFile m_junit;
+    const Outputs m_outputs;
     std::mutex m_busy;  ///< guards all following members while a SignalWatch exists
     std::optional<Spec> m_spec;
     std::optional<OutputFolder> m_folder;
@@ -184,8 +185,7 @@ void add_compare(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<CompareArguments>();
     add_source_options(*command, options->source);
     command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
-    command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
-    command->add_flag("--gate", options->gate, "Fail if the spec has no checks");
+    add_output_options(*command, options->outputs);
     add_context_options(*command, options->context);
     command->callback([options, &exit_code] { exit_code = guarded([&] { return Comparison(*options).run(); }); });
 }
