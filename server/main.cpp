@@ -6,6 +6,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     int exit_code = sheer::exit_ok;
     sheer::cli::add_compare(app, exit_code);
+    sheer::cli::add_submit(app, exit_code);
+    sheer::cli::add_baseline(app, exit_code);
     sheer::cli::add_diff(app, exit_code);
     sheer::cli::add_pixel(app, exit_code);
     sheer::cli::add_serve(app, exit_code);
