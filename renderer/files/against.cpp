@@ -43,13 +43,23 @@ std::string device_text(const Report& report) {
 /// The checks of one method at one point.
 class MethodChecks {
   public:
-    MethodChecks(const diff::RunDiff& run, const diff::ResultDiff& result, double max_flip, double max_slowdown)
-        : m_run(run), m_result(result), m_max_flip(max_flip), m_max_slowdown(max_slowdown) {}
+    /// `by_own_time`: the baseline method changed too, so that times cannot be compared with it.
+    MethodChecks(const diff::RunDiff& run, const diff::ResultDiff& result, double max_flip, double max_slowdown,
+                 bool by_own_time)
+        : m_run(run),
+          m_result(result),
+          m_max_flip(max_flip),
+          m_max_slowdown(max_slowdown),
+          m_by_own_time(by_own_time) {}
 
     void add_to(std::vector<Check>& checks) const {
         checks.push_back(of_picture());
-        // The time of the baseline method is what the others' times are compared with.
-        if (m_result.time && m_result.time->relative) checks.push_back(of_time(*m_result.time));
+        if (!m_result.time) return;
+        // The time of the baseline method is what the others' times are compared with, unless it changed.
+        if (m_by_own_time && m_result.time->absolute)
+            checks.push_back(of_time(*m_result.time, *m_result.time->absolute, m_result.time->absolute->verdict));
+        if (!m_by_own_time && m_result.time->relative)
+            checks.push_back(of_time(*m_result.time, *m_result.time->relative, m_result.time->verdict));
     }
 
   private:
@@ -83,18 +93,17 @@ class MethodChecks {
                    fmt::format("{} pixels differ", m_result.picture->differing_pixels.value_or(0)));
     }
 
-    Check of_time(const diff::TimeDiff& time) const {
+    Check of_time(const diff::TimeDiff& time, const diff::Judged& speedup, report::SpeedVerdict verdict) const {
         using enum CheckOutcome;
         Check check = begin("against.slowdown", m_max_slowdown);
-        const diff::Judged& relative = *time.relative;
-        check.value = relative.value > 0 ? std::optional(1 / relative.value) : std::nullopt;
-        if (!relative.ci95) return end(check, undecided, "there are too few rounds for an interval");
-        const double least = 1 / (*relative.ci95)[1], greatest = 1 / (*relative.ci95)[0];
+        check.value = speedup.value > 0 ? std::optional(1 / speedup.value) : std::nullopt;
+        if (!speedup.ci95) return end(check, undecided, "there are too few rounds for an interval");
+        const double least = 1 / (*speedup.ci95)[1], greatest = 1 / (*speedup.ci95)[0];
         const std::string interval = fmt::format("[{}, {}]", number_text(least), number_text(greatest));
         if (greatest <= m_max_slowdown) return end(check, passed);
         if (least <= m_max_slowdown)
             return end(check, undecided, fmt::format("the limit lies within its interval {}", interval));
-        if (time.verdict != report::SpeedVerdict::slower)
+        if (verdict != report::SpeedVerdict::slower)
             return end(check, undecided,
                        fmt::format("its interval {} is over the limit, but {}", interval,
                                    time.reason.empty() ? "its own time is not" : time.reason));
@@ -104,6 +113,7 @@ class MethodChecks {
     const diff::RunDiff& m_run;
     const diff::ResultDiff& m_result;
     double m_max_flip, m_max_slowdown;
+    bool m_by_own_time;
 };
 
 std::vector<std::string> under_test_of(const Report& report) {
@@ -129,11 +139,24 @@ Check without_report(const std::string& asked, const std::string& reason) {
             .reason = "there is no report to compare with: " + reason};
 }
 
+/// Whether the scene, the picture or the baseline method differ, which change the time of the baseline method.
+bool has_other_baseline_time(const Report& before, const Report& now) {
+    const json& methods = before.spec.at("methods");
+    std::string baseline = "/methods";
+    for (std::size_t i = 0; i < methods.size(); ++i)
+        if (methods[i].value("label", "") == before.baseline()) baseline = fmt::format("/spec/methods/{}", i);
+    return std::ranges::any_of(report_differences(before, now), [&](const FieldDifference& one) {
+        return lies_in(one.pointer, {"/spec/scene", "/spec/image", baseline}) || one.pointer.starts_with("/files/");
+    });
+}
+
 void add_checks(Report& now, const Report& before, const diff::Diff& diff) {
     const json tolerance = now.spec.value("tolerance", json::object());
+    const bool by_own_time = has_other_baseline_time(before, now);
     for (const diff::RunDiff& run : diff.runs)
         for (const diff::ResultDiff& result : run.results)
-            MethodChecks(run, result, tolerance.value("max_flip", 0.0), tolerance.value("max_slowdown", 1.1))
+            MethodChecks(run, result, tolerance.value("max_flip", 0.0), tolerance.value("max_slowdown", 1.1),
+                         by_own_time)
                 .add_to(now.checks);
     if (before.runs.size() != now.runs.size())
         now.checks.push_back(without_report(

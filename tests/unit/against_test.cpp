@@ -146,6 +146,21 @@ TEST_F(AgainstTest, WhatIsUnderTestMayDiffer) {
     EXPECT_THAT(now.against->text, HasSubstr("from the same spec except for /scene/count"));
 }
 
+/// If the scene is under test, all methods may be slower: b2f and f2bd take 1.3 times as long.
+TEST_F(AgainstTest, IfTheBaselineMethodChangesTooEachTimeIsComparedWithItself) {
+    report::Report now =
+        make("b", 6.5, 0, {{"scene", {{"type", "quads"}, {"count", 4}}}, {"under_test", {"/scene/count"}}});
+    now.runs[0].results[0].timing = from_document<report::Timing>(timing(13));
+    now = compared(now, {accepted(make("a"))});
+    EXPECT_THAT(outcomes(now), ElementsAre("against.flip.mean of b2f: passed", "against.slowdown of b2f: failed",
+                                           "against.flip.mean of f2bd: passed", "against.slowdown of f2bd: failed"));
+    EXPECT_NEAR(now.checks[1].value.value(), 1.3, 1e-2);
+    // The same times with the same scene are those of a slower machine.
+    report::Report slower_machine = make("b", 6.5);
+    slower_machine.runs[0].results[0].timing = from_document<report::Timing>(timing(13));
+    EXPECT_EQ(compared(slower_machine, {accepted(make("a"))}).verdict, report::ReportVerdict::passed);
+}
+
 TEST_F(AgainstTest, WithoutAnyReportTheGateFailsAndSaysWhy) {
     report::Report now = compared(make("b"), {});
     EXPECT_THAT(outcomes(now), ElementsAre("against of baseline:main: failed"));
