@@ -18,8 +18,7 @@ std::string check_limits(const Check& check) {
 
 std::string check_name(const Check& check) {
     const std::string point = describe_point(check.at);
-    return fmt::format("{} of {}{}{}", check.metric, check.method, check_limits(check),
-                       point.empty() ? "" : " at " + point);
+    return fmt::format("{} of {}{}", check.metric, check.method, point.empty() ? "" : " at " + point);
 }
 
 std::string check_value(const Check& check) {

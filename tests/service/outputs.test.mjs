@@ -370,7 +370,10 @@ test("over HTTP a report that failed or was cancelled has a JUnit file with an e
     const xml = await junit(failed.id);
     assert.deepEqual(counts(xml), { tests: 1, failures: 0, errors: 1 });
     assert.ok(xml.includes('name="a\ufffdb\ufffd\ufffd &lt;x> &amp; &quot;q&quot; ]]>"'), xml);
-    assert.deepEqual(tags(xml), ["testsuite", "testcase", "error"]);
+    assert.deepEqual(
+      tags(xml).filter((tag) => !tag.startsWith("propert")),
+      ["testsuite", "testcase", "error"],
+    );
     const running = await service.submit(lasting(60));
     await service.reached(running, "running");
     await assert_problem(await fetch(`${service.api}/reports/${running}/junit.xml`), 409);

@@ -129,7 +129,7 @@ TEST(Junit, IsWellFormedForAnyTexts) {
     EXPECT_EQ(not_well_formed(xml), "");
     EXPECT_THAT(xml, HasSubstr("tests=\"4\" failures=\"3\" errors=\"0\" skipped=\"0\""));
     EXPECT_THAT(xml, HasSubstr("<failure message=\"is 0.2, wanted at most 0.05\" />"));
-    EXPECT_THAT(xml, HasSubstr("at most 0.05 at count 16\">"));
+    EXPECT_THAT(xml, HasSubstr("at count 16 (2)\">"));
 }
 
 TEST(Junit, AReportThatIsNotDoneHasAnError) {
