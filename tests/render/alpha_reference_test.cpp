@@ -129,7 +129,7 @@ class SceneAlphaReference : public AlphaReference, public testing::WithParamInte
         Picture picture{Image(8, 8), true, {}};
         for (std::size_t i = 0; i < picture.image.rgba.size(); ++i)
             picture.image.rgba[i] = i % 4 == 3 ? texture_alpha : 1.0f;
-        geometry.textures = {{"leaf", picture}};  // instead of the texture that the spec names
+        geometry.textures = {{{"leaf", 8}, picture}};  // instead of the texture that the spec names
         return geometry;
     }
 };
