@@ -2,7 +2,8 @@
 
 int main(int argc, char** argv) {
     sheer::cli::log_to_stderr("sheer");
-    CLI::App app{"Sheer compares transparency methods: images, timings and differences of a scene, as a report."};
+    CLI::App app{"Sheer compares transparency methods: images, timings and differences of a scene, as a report.",
+                 "sheer"};
     app.require_subcommand(1);
     int exit_code = sheer::exit_ok;
     sheer::cli::add_compare(app, exit_code);

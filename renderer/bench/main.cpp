@@ -142,7 +142,7 @@ class Bench {
 
 int main(int argc, char** argv) {
     cli::log_to_stderr("sheer-bench");
-    CLI::App app{"Compares transparency methods through EGL and prints the numbers."};
+    CLI::App app{"Compares transparency methods through EGL and prints the numbers.", "sheer-bench"};
     Arguments arguments;
     cli::add_source_options(app, arguments.source);
     cli::add_device_options(app, arguments.context);
