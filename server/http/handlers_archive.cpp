@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "server/http/byte_range.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
@@ -33,13 +34,31 @@ Answer list_reports(Service& service, const Request& request) {
     return json_response(200, to_document(list));
 }
 
+/// None if the client wants the whole.
+std::optional<ByteRange> wanted_range(const Request& request, const std::string& etag, std::uint64_t size) {
+    const auto field = request.headers.find("Range");
+    if (!field || request.headers.find("If-Range").value_or(etag) != etag) return std::nullopt;
+    return byte_range(*field, size);
+}
+
 Answer get_blob(Service& service, const Request& request) {
     const std::string sha256 = request.path_values.at("sha256");
     const auto blob = service.store.blobs().open(sha256);
     if (!blob) throw Problem(404, "There is no such blob.");
+    const std::string etag = fmt::format("\"{}\"", sha256);
+    const std::uint64_t size = blob->content->size_bytes();
     Response response{.status = 200, .headers = {}, .body = blob->content};
+    if (const auto range = wanted_range(request, etag, size)) {
+        if (*range == ByteRange{})
+            throw Problem(416, fmt::format("The picture has only {} bytes.", size))
+                .with("Content-Range", fmt::format("bytes */{}", size));
+        response.status = 206;
+        response.body = slice_of(blob->content, *range);
+        response.headers.add("Content-Range", fmt::format("bytes {}-{}/{}", range->begin, range->end - 1, size));
+    }
     response.headers.add("Content-Type", blob->media_type);
-    response.headers.add("ETag", fmt::format("\"{}\"", sha256));
+    response.headers.add("Accept-Ranges", "bytes");
+    response.headers.add("ETag", etag);
     response.headers.add("Cache-Control", "public, max-age=31536000, immutable");
     return response;
 }
@@ -72,10 +91,14 @@ std::vector<Route> archive_routes(Service& service) {
              .pattern = std::string(blobs_path) + "/{sha256}",
              .id = "getBlob",
              .summary = "A picture",
-             .headers = {{"If-None-Match", "the ETag of the copy that the client has"}},
+             .headers = {{"If-None-Match", "the ETag of the copy that the client has"},
+                         {"Range", "one range of bytes, such as bytes=1000-"},
+                         {"If-Range", "the ETag of the copy of which the client has a part"}},
              .replies = {{200, "The picture; it never changes", "image/*", ""},
+                         {206, "The range of its bytes that Range asks for", "image/*", ""},
                          {304, "The client has it already", "", ""},
                          {404, "There is no such blob", "application/problem+json", "Problem"},
+                         {416, "It has none of the bytes that Range asks for", "application/problem+json", "Problem"},
                          {500, "Its bytes are damaged", "application/problem+json", "Problem"}},
              .handle = [&service](const Request& request) { return get_blob(service, request); }}};
 }

@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <iterator>
+#include <map>
 
 #include "renderer/files/html.h"
+#include "renderer/report/markdown.h"
 #include "renderer/report/report.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
 #include "server/http/text.h"
+#include "server/http/zip.h"
 
 namespace sheer::http {
 
@@ -40,6 +44,51 @@ Answer get_junit(Service& service, const Request& request) {
     if (!is_final(record.status))
         throw Problem(409, fmt::format("The report has not ended: it is {}.", status_text(record.status)));
     return text_response(200, report_junit(report_of(record)), "application/xml");
+}
+
+Answer get_summary(Service& service, const Request& request) {
+    const ReportRecord record = found_report(service, request);
+    if (!is_final(record.status))
+        throw Problem(409, fmt::format("The report has not ended: it is {}.", status_text(record.status)));
+    return text_response(200, report_markdown(report_of(record)), "text/markdown; charset=utf-8");
+}
+
+/// The pictures of a report as files of the ZIP, each once; from now on the report refers to these files.
+std::vector<ZipEntry> picture_entries(Service& service, report::Report& report) {
+    std::map<std::string, std::string> names;  // by SHA-256
+    for (const report::Picture& picture : report.pictures())
+        names[picture.sha256] =
+            fmt::format("images/{}.{}", picture.sha256, picture.media_type == "image/png" ? "png" : "exr");
+    const auto relink = [&](report::Pictures& pictures) {
+        for (auto& [key, picture] : pictures) picture.url = names.at(picture.sha256);
+    };
+    for (report::Run& run : report.runs) {
+        relink(run.reference.images);
+        for (report::Result& result : run.results) relink(result.images);
+    }
+    std::vector<ZipEntry> entries;
+    for (const auto& [sha256, name] : names) {
+        const auto blob = service.store.blobs().open(sha256);
+        if (!blob) throw DamagedData(fmt::format("the picture {} is missing", sha256));
+        entries.push_back({name, blob->content});
+    }
+    return entries;
+}
+
+Answer get_zip(Service& service, const Request& request) {
+    report::Report report = done_report(service.store, request.path_values.at("id"));
+    const auto read_picture = [&service](const report::Picture& picture) {
+        return picture_bytes(service.store, picture);
+    };
+    std::vector<ZipEntry> entries = {{"report.html", content_of(report_html(report, read_picture))},
+                                     {"junit.xml", content_of(report_junit(report))},
+                                     {"summary.md", content_of(report_markdown(report))}};
+    std::ranges::move(picture_entries(service, report), std::back_inserter(entries));
+    entries.push_back({"report.json", content_of(to_document(report).dump(2) + "\n")});
+    Response response{.status = 200, .headers = {}, .body = zip_of(std::move(entries))};
+    response.headers.add("Content-Type", "application/zip");
+    response.headers.add("Content-Disposition", fmt::format("attachment; filename=\"sheer-{}.zip\"", report.id));
+    return response;
 }
 
 Answer delete_report(Service& service, const Request& request) {
@@ -129,6 +178,15 @@ std::vector<Route> report_routes(Service& service) {
               {{200, "The checks", "application/xml", ""},
                {409, "The report has not ended", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return get_junit(service, request); }),
+        route("GET", "/summary.md", "getReportSummary",
+              "The verdict, the checks and the methods of a report as markdown",
+              {{200, "The summary", "text/markdown", ""},
+               {409, "The report has not ended", "application/problem+json", "Problem"}},
+              [&service](const Request& request) { return get_summary(service, request); }),
+        route("GET", "/report.zip", "getReportZip",
+              "A done report with everything: report.json, report.html, junit.xml, summary.md and the pictures",
+              {{200, "The files", "application/zip", ""}, not_done},
+              [&service](const Request& request) { return get_zip(service, request); }),
         std::move(remove),
     };
 }
