@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <future>
+
 #include "renderer/core/errors.h"
 #include "renderer/core/exit_codes.h"
 #include "renderer/core/files.h"
@@ -104,13 +106,21 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
         spdlog::info("job {} goes back to the queue", m_lease.id);
         m_queue.release(m_lease);
     } else if (result.status.code == exit_ok || result.status.code == exit_check_failed) {
-        FinishedReport finished = read_report_folder(out, m_lease, m_clock());
-        compare_with_baseline(m_store, finished);
-        const bool kept = m_queue.commit(m_lease, finished);
+        const bool kept = m_queue.commit(m_lease, finished_report(out));
         spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before it ended");
     } else {
         conclude_failure(result.status);
     }
+}
+
+FinishedReport Attempt::finished_report(const fs::path& out) {
+    FinishedReport finished = read_report_folder(out, m_lease, m_clock());
+    // The pictures of a large sweep take longer than a lease.
+    std::future<void> comparing = std::async(std::launch::async, [&] { compare_with_baseline(m_store, finished); });
+    while (comparing.wait_for(std::chrono::milliseconds(m_options.rules.heartbeat_ms)) != std::future_status::ready)
+        m_queue.heartbeat(m_lease, m_progress.fraction, "comparing with the baseline");
+    comparing.get();
+    return finished;
 }
 
 void Attempt::conclude_failure(const ExitStatus& status) {

@@ -23,6 +23,8 @@ class Attempt {
     bool keep_lease();
     void beat(SteadyTime now);
     void conclude(const ChildResult& result, const std::filesystem::path& out);
+    /// The renderer's report, compared with the report of its `against`.
+    FinishedReport finished_report(const std::filesystem::path& out);
     void conclude_failure(const ExitStatus& status);
 
     Store& m_store;
