@@ -1,6 +1,6 @@
 // A finished report as a part of a page. Both the served page and the self-contained file use it.
 import { AnswerCard } from "./answer_card.js";
-import { checks_section } from "./checks_view.js";
+import { changes_section, checks_section } from "./checks_view.js";
 import { el, set_children } from "./dom.js";
 import { is_number } from "./format.js";
 import { frontier_section } from "./frontier_view.js";
@@ -184,6 +184,7 @@ export function report_view(
     runs.length > 0 ? answer.element : null,
     notes_list(report.notes),
     checks_section(report),
+    runs.length === 1 ? changes_section(runs[0]) : null,
     suite_section(report, options),
     sweep ? [sweep.element, sweep.point_choice] : null,
     place,

@@ -200,3 +200,34 @@ page_test(
     await assert_accessible(page, "a report that is not whole");
   },
 );
+
+page_test("what looks change and with which report it was compared is shown", { origin: undefined }, async (page) => {
+  const layers = [{ rect: [0, 0, 1, 1], depth: 0.5, color: [1, 0, 0], alpha: 0.5 }];
+  const spec = {
+    image: { width: 16, height: 16 },
+    scene: { type: "layers", layers },
+    methods: ["b2f", { id: "b2f", label: "new", shading: { glsl: "return vec4(tint.rgb * 0.5, tint.a);" } }],
+    timing: { rounds: 1 },
+    against: "baseline:page",
+    tolerance: { max_slowdown: 1000 },
+  };
+  const first = await finished(spec);
+  await fetch(`${tests.url()}/api/v1/baselines/page`, {
+    method: "PUT",
+    body: JSON.stringify({ report: first.id }),
+    headers: { "Content-Type": "application/json" },
+  });
+  const report = await finished(spec);
+  await open_report(page, report);
+  const changes = page.getByRole("region", { name: "Changes" });
+  assert.match(
+    await changes.locator("li").innerText(),
+    /^b2f → new: the picture differs, mean FLIP 0\.\d+, 256 pixels; speed /,
+  );
+  const checks = page.getByRole("region", { name: "Checks" });
+  assert.match(
+    await checks.locator(".against").innerText(),
+    new RegExp(`^compared with ${first.id} of page, accepted`),
+  );
+  await assert_accessible(page);
+});
