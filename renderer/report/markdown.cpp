@@ -48,6 +48,7 @@ std::string verdict_line(const Report& report) {
 /// What would decide an undecided check.
 std::string advice(const Check& check, const Report& report) {
     if (check.came_out() != CheckOutcome::undecided) return check.reason;
+    if (check.metric.starts_with("against.")) return check.reason + "; a larger timing.rounds would decide it";
     const double max_seconds = report.spec.value(nlohmann::json::json_pointer("/timing/max_seconds"), 60.0);
     return fmt::format("{}; more time would decide it: timing.max_seconds over {}", check.reason,
                        number_text(max_seconds));

@@ -177,10 +177,12 @@ Quantity of_change(const MetricInfo& metric, const MetricField& field) {
                 if (!result.change) return std::nullopt;
                 return value_in(result.change->metrics, id, name);
             },
-            .reason =
-                [](const Result& result) {
-                    return result.change || !result.change.reason.empty() ? result.change.reason : no_own_look;
-                }};
+            .reason = [id = metric.id](const Result& result) -> std::string {
+                if (!result.change) return result.change.reason.empty() ? no_own_look : result.change.reason;
+                const auto found = result.change->metrics.values.find(id);
+                const bool is_object = found != result.change->metrics.values.end() && found->is_object();
+                return is_object ? found->value("reason", "") : "";
+            }};
 }
 
 Quantity change_speedup() {

@@ -34,6 +34,7 @@ json metric_schema(const MetricInfo& metric) {
         schema["properties"][field.name] = one;
         schema["required"].push_back(field.name);
     }
+    schema["properties"]["reason"] = {{"type", "string"}, {"description", "why its values are null"}};
     schema["description"] = metric.summary;
     return schema;
 }

@@ -57,6 +57,12 @@ TEST(Markdown, BeginsWithTheVerdictAndWhatFailed) {
     EXPECT_THAT(text, Not(HasSubstr("<img")));
 }
 
+TEST(Markdown, SaysWhatWouldDecideAComparisonWithABaseline) {
+    report::Report report = made();
+    report.checks = {check("against.slowdown", report::CheckOutcome::undecided, "it is wide")};
+    EXPECT_THAT(report_markdown(report), HasSubstr("it is wide; a larger timing.rounds would decide it |"));
+}
+
 TEST(Markdown, LinksPicturesAndTheReport) {
     const std::string text =
         report_markdown(made(), {.report = "http://s/#/r", .picture_prefix = "http://s", .pictures = true});
