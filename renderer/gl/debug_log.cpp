@@ -111,8 +111,8 @@ std::vector<std::string> take_errors(const Functions& gl) {
 
 spdlog::level::level_enum level_of(GLenum type, GLenum severity) {
     if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH) return spdlog::level::err;
-    // Performance hints, and NVIDIA's hints of low severity, come with every frame; only those who look for them want to see
-    // them.
+    // Performance hints, and NVIDIA's hints of low severity, come with every frame; only those who look for them want
+    // to see them.
     if (type == GL_DEBUG_TYPE_PERFORMANCE) return spdlog::level::debug;
     if (severity == GL_DEBUG_SEVERITY_MEDIUM) return spdlog::level::warn;
     return severity == GL_DEBUG_SEVERITY_LOW ? spdlog::level::debug : spdlog::level::trace;

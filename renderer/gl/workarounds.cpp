@@ -33,7 +33,8 @@ constexpr std::array workarounds{
     },
     Workaround{
         "keep-programs",
-        "After a program has been deleted, the first draws of a program made later may draw nothing, or run forever: on "
+        "After a program has been deleted, the first draws of a program made later may draw nothing, or run forever: "
+        "on "
         "an NVIDIA H100 with driver 580.159.04, one method's frame in 25 lacked all its transparent fragments, and a "
         "later frame of the same method had them. Not deleting programs cured it (0 of 985 frames), as if the device "
         "still ran the instructions that had been at the same place before. So programs stay until their context ends.",
