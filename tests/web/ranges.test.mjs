@@ -179,9 +179,10 @@ page_test("every number of every method has the range of the schema", { expected
   const methods = await api("/methods");
   await put_spec(page, { scene: { type: "quads" }, methods: methods.map(({ id }) => ({ id })) });
   const seen = await check_numbers(page, root, (pointer) => pointer.startsWith("/methods/"));
-  const expected = methods.flatMap(({ id }, index) =>
-    numbers_in(variant(root.properties.methods.items, "id", id), `/methods/${index}`),
-  );
+  // A method's own texture is only in the JSON of a spec, which the form keeps.
+  const expected = methods
+    .flatMap(({ id }, index) => numbers_in(variant(root.properties.methods.items, "id", id), `/methods/${index}`))
+    .filter((pointer) => !pointer.endsWith("/texture/size"));
   assert.deepEqual([...new Set(seen)].sort(), expected.sort());
 });
 
