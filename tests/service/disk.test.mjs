@@ -66,7 +66,7 @@ async function fill(service) {
   let seed = 0;
   return until(
     async () => {
-      const response = await service.post(small(++seed), { Prefer: "wait=20" });
+      const response = await service.post(small(++seed), { Prefer: "wait=4" });
       if (response.status !== 507) {
         assert.ok([200, 202].includes(response.status), `${response.status}: ${await response.text()}`);
         return null;
@@ -91,9 +91,9 @@ async function all_reports(service) {
 
 // With the bytes of other files, so that not many reports fill the disk.
 for (const [options, other_bytes] of [
-  ["size=1m", 0],
+  ["size=1m", 400 << 10],
   ["size=3m", 1600 << 10],
-  ["size=64m,nr_inodes=90", 0],
+  ["size=64m,nr_inodes=70", 0],
 ]) {
   test(
     `a full disk (${options}) accepts nothing, says so, and works again`,
