@@ -33,11 +33,11 @@ constexpr std::array workarounds{
     },
     Workaround{
         "keep-programs",
-        "After a program has been deleted, the first draws of a program made later may draw nothing, or run forever: "
-        "on "
-        "an NVIDIA H100 with driver 580.159.04, one method's frame in 25 lacked all its transparent fragments, and a "
-        "later frame of the same method had them. Not deleting programs cured it (0 of 985 frames), as if the device "
-        "still ran the instructions that had been at the same place before. So programs stay until their context ends.",
+        "After a program has been deleted, the first draws of a program made later may draw nothing: on an NVIDIA H100 "
+        "with driver 580.159.04, 98 of 1,583 first frames of a method, made after another one had been destroyed, "
+        "lacked all their transparent fragments, and the next frame had them. Without deleting programs none of 804 "
+        "did, as if the device still ran the instructions that had been at the same place before. So programs stay "
+        "until their context ends.",
         is_nvidia,
     },
 };
