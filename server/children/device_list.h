@@ -6,6 +6,7 @@
 #include <string>
 
 #include "server/process/child_process.h"
+#include "server/process/rendering_program.h"
 
 namespace sheer {
 
@@ -13,7 +14,7 @@ namespace sheer {
 /// the answer is cached for a while. Thread-safe.
 class DeviceList {
   public:
-    explicit DeviceList(std::chrono::milliseconds keep, std::string program = own_program);
+    explicit DeviceList(std::chrono::milliseconds keep, std::string program = rendering_program());
     /// Throws std::runtime_error if the child fails.
     nlohmann::json get();
 

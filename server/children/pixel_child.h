@@ -1,18 +1,10 @@
 #pragma once
-#include <chrono>
 #include <filesystem>
 #include <string>
 
-#include "server/process/child_process.h"
+#include "server/process/ask_child.h"
 
 namespace sheer {
-
-struct PixelOptions {
-    std::filesystem::path data;  ///< the archive's folder
-    std::uint64_t memory_limit_bytes = 0;
-    std::chrono::milliseconds time_limit{60'000};
-    std::string program = own_program;
-};
 
 struct PixelPlace {
     int x = 0, y = 0;  ///< from the top left
@@ -26,8 +18,10 @@ struct PixelAnswer {
     bool too_slow = false;
 };
 
-/// Runs `sheer pixel` on a done report in a child that may die; the report is passed as a file that is only in memory.
-/// Throws std::runtime_error if the child dies or has an internal error, std::system_error if it cannot be started.
-PixelAnswer run_pixel_child(const std::string& report, const PixelPlace& place, const PixelOptions& options);
+/// Runs `sheer pixel` on a done report of the archive in `data`, in a child that may die; the report is passed as a
+/// file that is only in memory. Throws std::runtime_error if the child dies or has an internal error, std::system_error
+/// if it cannot be started.
+PixelAnswer run_pixel_child(const std::string& report, const PixelPlace& place, const std::filesystem::path& data,
+                            const ChildLimits& limits);
 
 }  // namespace sheer

@@ -8,8 +8,6 @@
 
 #include "renderer/core/exit_codes.h"
 #include "renderer/core/sha256.h"
-#include "server/process/memory_file.h"
-#include "server/process/run_child.h"
 
 namespace sheer {
 
@@ -40,24 +38,15 @@ std::string ShadingCheck::compile(const std::string& glsl, const std::string& ke
         const std::lock_guard lock(m_mutex);
         ++m_compiled;
     }
-    std::string line;
     try {
-        const MemoryFile file("shading", glsl);
-        ChildRun run;
-        run.options.program = m_options.program;
-        run.options.arguments = {"check-shading"};
-        run.options.memory_limit_bytes = m_options.memory_limit_bytes;
-        run.options.input = file.descriptor();
-        run.time_limit = m_options.time_limit;
-        run.on_line = [&line](const std::string& text) { line = text; };
-        const ChildResult result = run_child(run);
-        if (!result.timed_out && result.status.code == exit_ok) {
-            const std::string answer = nlohmann::json::parse(line).at("messages");
+        const ChildReply reply = ask_child({"check-shading"}, glsl, m_options.child);
+        if (!reply.timed_out && reply.status.code == exit_ok) {
+            const std::string answer = nlohmann::json::parse(reply.line).at("messages");
             remember(key, answer);
             return answer;
         }
-        spdlog::warn("a shading could not be checked: sheer check-shading {}, exit code {}, signal {}",
-                     result.timed_out ? "took too long" : "ended", result.status.code, result.status.signal);
+        spdlog::warn("a shading could not be checked: {}{}", ending_text("check-shading", reply.status),
+                     reply.timed_out ? ", as it took too long" : "");
     } catch (const std::exception& error) {
         spdlog::warn("a shading could not be checked: {}", error.what());
     }

@@ -1,21 +1,18 @@
 #pragma once
 #include <chrono>
-#include <cstdint>
 #include <list>
 #include <mutex>
 #include <string>
 #include <utility>
 
-#include "server/process/child_process.h"
+#include "server/process/ask_child.h"
 
 namespace sheer {
 
 struct ShadingCheckOptions {
-    std::uint64_t memory_limit_bytes = 0;
-    std::chrono::milliseconds time_limit{10'000};
+    ChildLimits child{.time = std::chrono::seconds(10)};
     std::chrono::milliseconds longest_wait{5'000};  ///< for another check to end
     std::size_t kept = 1024;                        ///< answers that are remembered
-    std::string program = own_program;
 };
 
 /// Compiles the users' own shadings before a job is queued, in a child that may die, and remembers the answers by the

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "renderer/gl/context.h"
 #include "renderer/spec/catalog.h"
 #include "renderer/spec/spec.h"
 #include "renderer/spec/suites.h"
 #include "server/cli/commands.h"
-#include "server/cli/rendering.h"
+#include "server/cli/list_command.h"
 
 namespace sheer::cli {
 
@@ -53,46 +52,6 @@ std::string metric_entry(const json& metric) {
     return text + "\n";
 }
 
-json describe_devices() {
-    std::vector<catalog::ListedDevice> all;
-    for (const gl::ListedDevice& device : gl::list_devices()) {
-        all.push_back({device.info, device.error, {}});
-        for (const gl::Workaround& workaround : gl::known_workarounds())
-            if (!device.error && workaround.applies(device.info))
-                all.back().workarounds.push_back({std::string(workaround.name), std::string(workaround.paragraph)});
-    }
-    return to_document(all);
-}
-
-std::string device_line(const json& device) {
-    const auto name = device["name"].get<std::string>();
-    if (!device["error"].is_null())
-        return fmt::format("{:<10} not usable: {}\n", name, device["error"].get<std::string>());
-    return fmt::format("{:<10} {}, OpenGL {}{}\n", name, device["renderer"].get<std::string>(),
-                       device["gl_version"].get<std::string>(), device["software"].get<bool>() ? ", software" : "");
-}
-
-using Describe = std::function<json()>;
-using Line = std::function<std::string(const json&)>;
-
-void add_list(CLI::App& app, int& exit_code, const std::string& name, const std::string& summary, Describe describe,
-              Line line) {
-    CLI::App* command = app.add_subcommand(name, summary);
-    auto as_json = std::make_shared<bool>(false);
-    command->add_flag("--json", *as_json, "As JSON");
-    command->callback([=, &exit_code] {
-        exit_code = guarded([&] {
-            const json all = describe();
-            if (*as_json) {
-                fmt::print("{}\n", all.dump(2));
-            } else {
-                for (const json& one : all) fmt::print("{}", line(one));
-            }
-            return exit_ok;
-        });
-    });
-}
-
 }  // namespace
 
 void add_catalog(CLI::App& app, int& exit_code) {
@@ -109,7 +68,6 @@ void add_catalog(CLI::App& app, int& exit_code) {
                  return fmt::format("{:<15} {} ({})\n", suite["id"].get<std::string>(),
                                     suite["title"].get<std::string>(), suite["source"].get<std::string>());
              });
-    add_list(app, exit_code, "devices", "The devices that can render here", describe_devices, device_line);
 }
 
 }  // namespace sheer::cli

@@ -31,6 +31,18 @@ bool is_reports_own(const fs::path& file, const fs::path& out) {
            first == Manifest::file_name || first == ".sheer-partial";
 }
 
+/// The word after --junit of a command line that cannot be read as a whole; "" if there is none.
+std::string junit_argument(int argc, const char* const* argv) {
+    constexpr std::string_view option = "--junit";
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        if (word == option && i + 1 < argc) return argv[i + 1];
+        if (word.starts_with(option) && word.substr(option.size()).starts_with('='))
+            return std::string(word.substr(option.size() + 1));
+    }
+    return "";
+}
+
 }  // namespace
 
 JunitFile::JunitFile(const std::string& file, const fs::path& spec, const fs::path& out) : m_file(file) {
@@ -61,15 +73,14 @@ void JunitFile::write_error(const std::string& title, const std::string& detail)
     write(report);
 }
 
-std::string junit_argument(int argc, const char* const* argv) {
-    constexpr std::string_view option = "--junit";
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        if (word == option && i + 1 < argc) return argv[i + 1];
-        if (word.starts_with(option) && word.substr(option.size()).starts_with('='))
-            return std::string(word.substr(option.size() + 1));
+void note_wrong_command_line(int argc, const char* const* argv, const std::string& message) {
+    const std::string_view command = argc > 1 ? argv[1] : "";
+    if (command != "compare" && command != "submit") return;
+    try {
+        JunitFile(junit_argument(argc, argv), "", "").write_error("The command line is wrong", message);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "sheer: {}\n", error.what());
     }
-    return "";
 }
 
 }  // namespace sheer::cli

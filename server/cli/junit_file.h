@@ -24,7 +24,4 @@ class JunitFile {
     std::filesystem::path m_file;
 };
 
-/// The word after --junit of a command line that cannot be read as a whole; "" if there is none.
-std::string junit_argument(int argc, const char* const* argv);
-
 }  // namespace sheer::cli

@@ -47,17 +47,32 @@ void reload(const ServeOptions& options) {
     }
 }
 
+/// Why there is no sandbox here, "" if there is one; the log says it too.
+std::string note_sandbox(const SandboxSettings& settings) {
+    std::string reason = why_no_sandbox(settings);
+    if (reason.empty()) {
+        spdlog::info("what others send is read and rendered in a sandbox");
+    } else {
+        spdlog::warn("there is no sandbox: {}; {}", reason,
+                     settings.required ? "uploads and the user's own GLSL are refused"
+                                       : "uploads and the user's own GLSL are accepted, as sandbox.required is false");
+    }
+    return reason;
+}
+
 void serve(const ServeOptions& options) {
     // Standard output is for programs; the log is for people.
     spdlog::set_default_logger(spdlog::stderr_color_mt("serve"));
-    ServiceConfig config = config_of(options);
+    const ServiceConfig config = config_of(options);
     spdlog::set_level(spdlog::level::from_str(config.log_level));
-    config.pixel.data = config.data;
     const http::Endpoint endpoint = http::parse_endpoint(config.listen);
     SqliteStore store(config.data, config.leases, system_now_ms);
     ReportIds ids(system_now_ms);
     DeviceList devices(config.devices_cache);
-    ShadingCheck shadings({.memory_limit_bytes = config.worker.memory_limit_bytes});
+    ShadingCheckOptions shading_options;
+    shading_options.child.memory_bytes = config.worker.memory_limit_bytes;
+    shading_options.child.sandbox = config.sandbox;
+    ShadingCheck shadings(shading_options);
     http::Service service{
         .store = store,
         .ids = ids,
@@ -67,9 +82,14 @@ void serve(const ServeOptions& options) {
             [&config](const std::string& bytes, const std::string& media_type) {
                 return check_upload(bytes, media_type, config.upload_check);
             },
-        .pixel = [&config](const std::string& report,
-                           const PixelPlace& place) { return run_pixel_child(report, place, config.pixel); },
+        .pixel = [&config](
+                     const std::string& report,
+                     const PixelPlace& place) { return run_pixel_child(report, place, config.data, config.question); },
+        .diff =
+            [&config](const DiffQuestion& question) { return run_diff_child(question, config.data, config.question); },
         .limits = config.answers,
+        .without_sandbox = note_sandbox(config.sandbox),
+        .needs_sandbox = config.sandbox.required,
         .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); }};
     const http::Application application(http::make_guard(http::is_loopback(endpoint), config.allowed_hosts),
                                         http::make_router(service));

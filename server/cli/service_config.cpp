@@ -158,8 +158,8 @@ Section assets_settings() {
             {bytes("max_bytes", "size of an uploaded file; longer ones get 413", kibibyte, gibibyte,
                    in(&ServiceConfig::answers, &http::AnswerLimits::max_asset_bytes)),
              bytes("check_memory_bytes", "address space of the process that reads an upload; 0 for no limit", 0,
-                   tebibyte, of_check(&UploadCheckOptions::memory_limit_bytes)),
-             seconds("check_time_s", "time for reading an upload", hour_s, of_check(&UploadCheckOptions::time_limit))}};
+                   tebibyte, of_check(&ChildLimits::memory_bytes)),
+             seconds("check_time_s", "time for reading an upload", hour_s, of_check(&ChildLimits::time))}};
 }
 
 Section worker_settings() {
@@ -169,21 +169,42 @@ Section worker_settings() {
             {bytes("memory_limit_bytes", "address space of a renderer; 0 for no limit", 0, tebibyte,
                    of_worker(&WorkerOptions::memory_limit_bytes)),
              seconds("time_limit_s", "time for one job", week_s, of_worker(&WorkerOptions::time_limit)),
-             seconds("pixel_time_limit_s", "time for explaining one pixel of a report", hour_s,
-                     in(&ServiceConfig::pixel, &PixelOptions::time_limit)),
+             seconds("pixel_time_limit_s", "time for explaining one pixel of a report, or for comparing two reports",
+                     hour_s, in(&ServiceConfig::question, &ChildLimits::time)),
              seconds("poll_s", "time between two checks of the queue", 60, of_worker(&WorkerOptions::poll_interval)),
              seconds("probe_interval_s", "time between two probes of an idle worker, each of which renders one pixel",
                      day_s, of_worker(&WorkerOptions::probe_interval))}};
 }
 
-std::vector<Section> all_settings() {
-    return {general_settings(), http_settings(), jobs_settings(), assets_settings(), worker_settings()};
+Setting flag(std::string name, std::string summary, bool SandboxSettings::*member) {
+    return {Param::boolean(std::move(name), std::move(summary), SandboxSettings().*member),
+            [member](ServiceConfig& config, const json& value) { config.sandbox.*member = value.get<bool>(); }};
 }
 
-void check_hosts(const json& hosts, std::vector<FieldError>& errors) {
-    if (!hosts.is_array()) errors.push_back({"/allowed_hosts", "must be an array of names"});
-    for (std::size_t i = 0; hosts.is_array() && i < hosts.size(); ++i)
-        if (!hosts[i].is_string()) errors.push_back({fmt::format("/allowed_hosts/{}", i), "must be a text"});
+Section sandbox_settings() {
+    Param readable{.name = "readable",
+                   .kind = Param::Kind::any,
+                   .summary = "folders and files that drivers read, besides those below /usr, /lib, /etc and /sys"};
+    readable.default_value = json::array();
+    return {"sandbox",
+            "what confines the processes that read files and programs from others: docs/security.md",
+            {flag("enabled", "whether they are confined", &SandboxSettings::enabled),
+             flag("required", "whether uploads and the user's own GLSL are refused where there is no sandbox",
+                  &SandboxSettings::required),
+             {readable, [](ServiceConfig& config, const json& value) {
+                  config.sandbox.readable = value.get<std::vector<std::string>>();
+              }}}};
+}
+
+std::vector<Section> all_settings() {
+    return {general_settings(), http_settings(),   jobs_settings(),
+            assets_settings(),  worker_settings(), sandbox_settings()};
+}
+
+void check_texts(const json& texts, const std::string& pointer, std::vector<FieldError>& errors) {
+    if (!texts.is_array()) errors.push_back({pointer, "must be an array of texts"});
+    for (std::size_t i = 0; texts.is_array() && i < texts.size(); ++i)
+        if (!texts[i].is_string()) errors.push_back({fmt::format("{}/{}", pointer, i), "must be a text"});
 }
 
 }  // namespace
@@ -206,7 +227,8 @@ ServiceConfig read_service_config(const json& document) {
     if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "must be a JSON object"}});
     std::vector<FieldError> errors;
     const json read = read_fields(document, "", service_config_fields(), errors);
-    check_hosts(read["allowed_hosts"], errors);
+    check_texts(read["allowed_hosts"], "/allowed_hosts", errors);
+    check_texts(read["sandbox"]["readable"], "/sandbox/readable", errors);
     if (errors.empty() && read["jobs"]["lease_s"] <= read["jobs"]["heartbeat_s"])
         errors.push_back({"/jobs/lease_s", "must be longer than heartbeat_s"});
     if (!errors.empty()) throw SpecError(std::move(errors));
@@ -215,7 +237,8 @@ ServiceConfig read_service_config(const json& document) {
         for (const Setting& setting : section.settings)
             setting.set(config, (section.name.empty() ? read : read[section.name])[setting.param.name]);
     config.worker.rules = config.leases;
-    config.pixel.memory_limit_bytes = config.worker.memory_limit_bytes;
+    config.worker.sandbox = config.upload_check.sandbox = config.question.sandbox = config.sandbox;
+    config.question.memory_bytes = config.worker.memory_limit_bytes;
     config.answers.max_checks = config.answers.max_diffs = std::max(1, config.http.threads / 2);
     return config;
 }

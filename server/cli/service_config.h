@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "renderer/params/param.h"
-#include "server/children/pixel_child.h"
-#include "server/children/upload_check.h"
 #include "server/http/limits.h"
 #include "server/jobs/lease_rules.h"
+#include "server/process/ask_child.h"
+#include "server/process/sandbox_settings.h"
 #include "server/worker/worker.h"
 
 namespace sheer::cli {
@@ -25,9 +25,10 @@ struct ServiceConfig {
     http::AnswerLimits answers;
     std::chrono::seconds devices_cache{60};
     LeaseRules leases;
-    UploadCheckOptions upload_check;
-    PixelOptions pixel;    ///< without `data`; its memory is a renderer's
-    WorkerOptions worker;  ///< without `scratch`, `data`, `name` and `rules`
+    SandboxSettings sandbox;
+    ChildLimits upload_check{.memory_bytes = std::uint64_t{2} << 30, .time = std::chrono::seconds(20)};
+    ChildLimits question;  ///< of a child that explains a pixel or compares reports; its memory is a renderer's
+    WorkerOptions worker;  ///< without `scratch`, `data`, `name`, `rules` and `sandbox`
 };
 
 /// The fields of a configuration file. Its reader, configs/server.json and the documents are made from them.

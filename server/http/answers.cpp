@@ -61,7 +61,9 @@ const Description<answer::Readiness>& description_of() {
     using answer::Readiness;
     static const auto description = Description<Readiness>("Readiness", "the service renders")
                                         .member(&Readiness::status, "status", "ready")
-                                        .member(&Readiness::last_rendered_at, "last_rendered_at", "UTC, RFC 3339");
+                                        .member(&Readiness::last_rendered_at, "last_rendered_at", "UTC, RFC 3339")
+                                        .member(&Readiness::without_sandbox, "without_sandbox",
+                                                "why what others send is not read in a sandbox; empty if it is");
     return description;
 }
 

@@ -33,6 +33,7 @@ struct Health {
 
 struct Readiness : Health {
     std::string last_rendered_at;
+    std::string without_sandbox;
 };
 
 struct Progress {

@@ -1,7 +1,7 @@
 #include "server/http/components.h"
 
-#include "renderer/files/diff_types.h"
-#include "renderer/files/pixel_types.h"
+#include "renderer/results/diff_types.h"
+#include "renderer/results/pixel_types.h"
 #include "renderer/results/quantity.h"
 #include "renderer/results/report.h"
 #include "renderer/results/schemas.h"

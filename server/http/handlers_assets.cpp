@@ -4,8 +4,8 @@
 #include <atomic>
 #include <memory>
 
-#include "renderer/assets/check_asset.h"
 #include "renderer/core/sha256.h"
+#include "renderer/scene/asset_kinds.h"
 #include "server/http/answers.h"
 #include "server/http/paths.h"
 #include "server/http/problem.h"
@@ -52,6 +52,7 @@ Response known_asset(const Asset& asset, const std::string& media_type) {
 Answer post_asset(Service& service, std::atomic<int>& checks, const Request& request) {
     const std::string media_type = media_type_of(request.headers.find("Content-Type").value_or(""));
     const AssetKind& kind = *find_asset_kind(media_type);
+    require_sandbox(service, "An upload");
     Asset asset{.sha256 = sha256_hex(request.body),
                 .type = kind.type,
                 .media_type = media_type,

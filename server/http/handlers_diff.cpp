@@ -3,8 +3,6 @@
 #include <atomic>
 #include <memory>
 
-#include "renderer/files/data_uri.h"
-#include "renderer/files/diff.h"
 #include "renderer/files/report_document.h"
 #include "renderer/spec/sweep.h"
 #include "server/http/problem.h"
@@ -18,17 +16,6 @@ namespace sheer::http {
 namespace {
 
 constexpr std::size_t max_id_bytes = 200, max_allow_bytes = 4000;
-// Limit on the pixels that a request may decode: some ten seconds of work.
-constexpr std::uint64_t max_pixels = 64'000'000;
-
-/// The pictures of a diff are part of its text: in the archive, nothing would ever delete them.
-class InlineSink : public BlobSink {
-    std::string put(const std::string&, const std::string& bytes, const std::string&,
-                    const std::string& media_type) override {
-        return data_uri(media_type, bytes);
-    }
-};
-
 std::vector<std::string> allowed_pointers(const std::string& text) {
     std::vector<std::string> pointers;
     if (text.empty()) return pointers;
@@ -36,41 +23,32 @@ std::vector<std::string> allowed_pointers(const std::string& text) {
     return pointers;
 }
 
-Problem problem_of(const DiffConflict& conflict) {
+Problem problem_of(const DiffAnswer& refused) {
     const std::string refusal = "The reports cannot be compared with each other";
-    const auto& allow = conflict.allowable();
-    if (allow.empty()) return {422, refusal + ".", conflict.errors()};
-    return Problem(422, fmt::format("{}; to compare them nevertheless, allow {}", refusal, fmt::join(allow, ", ")),
-                   conflict.errors())
-        .with_allowable(allow);
+    if (refused.allowable.empty()) return {422, refusal + ".", refused.errors};
+    return Problem(
+               422,
+               fmt::format("{}; to compare them nevertheless, allow {}", refusal, fmt::join(refused.allowable, ", ")),
+               refused.errors)
+        .with_allowable(refused.allowable);
 }
 
-report::Report comparable_report(Store& store, const std::string& id) {
-    report::Report report = done_report(store, id);
+nlohmann::json comparable_report(Store& store, const std::string& id) {
+    const report::Report report = done_report(store, id);
     use_stored(id, [&] { check_comparable(report); });
-    return report;
+    return to_document(report);
 }
 
 Answer get_diff(Service& service, std::atomic<int>& diffs, const Request& request) {
-    const report::Report a = comparable_report(service.store, request.path_values.at("id"));
-    const report::Report b = comparable_report(service.store, request.query["against"]);
-    const auto read_picture = [&service](const report::Picture& picture) {
-        return picture_bytes(service.store, picture);
-    };
-    InlineSink sink;
-    DiffOptions options{.max_pixels = max_pixels, .allow = allowed_pointers(request.query["allow"])};
-    if (request.query["run"].is_number()) {
-        options.run = request.query["run"].get<std::size_t>();
-        options.pictures = &sink;
-    }
+    const nlohmann::json a = comparable_report(service.store, request.path_values.at("id"));
+    const nlohmann::json b = comparable_report(service.store, request.query["against"]);
+    DiffQuestion question{.a = a, .b = b, .run = {}, .allow = allowed_pointers(request.query["allow"])};
+    if (request.query["run"].is_number()) question.run = request.query["run"].get<std::size_t>();
     const Slot slot(diffs, service.limits.max_diffs, "Other reports are being compared; try again later.");
-    try {
-        return json_response(200, to_document(diff_reports({a, read_picture}, {b, read_picture}, options)));
-    } catch (const DiffConflict& conflict) {
-        throw problem_of(conflict);
-    } catch (const SpecError& wrong) {
-        throw Problem(422, "The reports cannot be compared with each other.", wrong.errors());
-    }
+    const DiffAnswer answer = service.diff(question);
+    if (answer.too_slow) throw Problem(503, answer.detail);
+    if (answer.json.empty()) throw problem_of(answer);
+    return text_response(200, answer.json, "application/json");
 }
 
 }  // namespace
@@ -96,7 +74,8 @@ std::vector<Route> diff_routes(Service& service) {
                          {422, "The reports have different specs; `errors` names the fields, `allow` what to allow",
                           "application/problem+json", "Problem"},
                          {429, "Other reports are being compared; Retry-After says when to try again",
-                          "application/problem+json", "Problem"}},
+                          "application/problem+json", "Problem"},
+                         {503, "It takes too long", "application/problem+json", "Problem"}},
              .handle = [&service, diffs](const Request& request) { return get_diff(service, *diffs, request); }}};
 }
 

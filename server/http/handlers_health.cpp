@@ -15,7 +15,7 @@ Answer get_ready(Service& service) {
     const std::int64_t age_ms = last_ms ? service.clock() - *last_ms : -1;
     if (!last_ms || age_ms > std::chrono::milliseconds(service.limits.ready_within).count())
         throw Problem(503, "No worker has rendered anything recently.").with("Retry-After", "5");
-    return json_response(200, to_document(answer::Readiness{{"ready"}, utc_text(*last_ms)}));
+    return json_response(200, to_document(answer::Readiness{{"ready"}, utc_text(*last_ms), service.without_sandbox}));
 }
 
 Route health_route(std::string path, std::string id, std::string summary, std::vector<Reply> replies, Lane lane,

@@ -57,8 +57,9 @@ Spec checked_spec(Service& service, const nlohmann::json& document) {
         if (!before || before->status != Status::done)
             throw SpecError(std::vector<FieldError>{{"/against", "there is no done report with this id"}});
     }
-    if (!service.check_shading) return spec;
     std::vector<SpecShader> shaders = shaders_of(spec);
+    if (!shaders.empty()) require_sandbox(service, "Your own GLSL");
+    if (!service.check_shading) return spec;
     if (shaders.size() > max_compiled_shaders) shaders.resize(max_compiled_shaders);
     std::vector<FieldError> errors;
     for (const SpecShader& shader : shaders)

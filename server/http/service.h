@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/core/clock.h"
+#include "server/children/diff_child.h"
 #include "server/children/pixel_child.h"
 #include "server/children/upload_check.h"
 #include "server/http/limits.h"
@@ -25,11 +26,19 @@ struct Service {
     std::function<UploadVerdict(const std::string& bytes, const std::string& media_type)> check_upload;
     /// Explains a pixel of a done report; see children/pixel_child.h.
     std::function<PixelAnswer(const std::string& report, const PixelPlace& place)> pixel;
+    /// Compares two done reports; see children/diff_child.h.
+    std::function<DiffAnswer(const DiffQuestion& question)> diff;
     AnswerLimits limits = {};
+    /// Why what others send is not read in a sandbox; "" if it is.
+    std::string without_sandbox = {};
+    bool needs_sandbox = true;
     /// What a compiler says of the user's own shading, "" for nothing; see children/shading_check.h. Null: shadings
     /// are compiled only when they are rendered.
     std::function<std::string(const std::string& glsl)> check_shading = {};
 };
+
+/// Throws Problem (403) for `what`, such as "An upload", if it needs a sandbox and there is none.
+void require_sandbox(const Service& service, const std::string& what);
 
 // The calls by topic. `service` must outlive the routes.
 std::vector<Route> submit_routes(Service& service);    ///< POST /reports, /specs/validate

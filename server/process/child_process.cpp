@@ -2,8 +2,10 @@
 
 #include <fcntl.h>
 #include <linux/close_range.h>
+#include <linux/sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,8 +34,8 @@ std::vector<char*> argument_pointers(std::string& name, std::vector<std::string>
 [[noreturn]] void become(const ChildOptions& options, char* const* arguments, int output, pid_t parent) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, options.signal_when_orphaned);
-    // The parent may have died before prctl was called.
-    if (getppid() != parent) _exit(exit_not_started);
+    // The parent may have died before prctl was called. A process in another namespace has no number here.
+    if (const pid_t now = getppid(); now != parent && now != 0) _exit(exit_not_started);
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -53,6 +55,13 @@ std::vector<char*> argument_pointers(std::string& name, std::vector<std::string>
     close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
     execv(options.program.c_str(), arguments);
     _exit(exit_not_started);
+}
+
+/// Like fork().
+pid_t fork_into_namespaces() {
+    constexpr unsigned long all =
+        CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET | CLONE_NEWIPC | CLONE_NEWUTS | CLONE_NEWNS;
+    return static_cast<pid_t>(syscall(SYS_clone, all | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
 }
 
 ExitStatus status_of(int wait_status) {
@@ -77,7 +86,8 @@ ChildProcess::ChildProcess(const ChildOptions& options) {
     std::vector<std::string> arguments = options.arguments;
     const std::vector<char*> pointers = argument_pointers(name, arguments);
     const pid_t parent = getpid();
-    m_pid = fork();
+    m_pid = options.own_namespaces ? fork_into_namespaces() : -1;
+    if (m_pid < 0) m_pid = fork();
     if (m_pid == 0) become(options, pointers.data(), options.capture_output ? pipe_ends[1] : STDERR_FILENO, parent);
     const int fork_error = errno;
     if (options.capture_output) {

@@ -19,7 +19,9 @@ struct ChildOptions {
     std::uint64_t memory_limit_bytes = 0;  ///< address space (RLIMIT_AS); 0: no limit
     int input = -1;                        ///< its standard input; -1: empty
     bool capture_output = true;            ///< otherwise the child writes to our standard error
-    int signal_when_orphaned = SIGKILL;    ///< what the child gets when the thread that started it ends
+    /// In namespaces of its own where the system permits it: no network, no sight of other processes, no privileges.
+    bool own_namespaces = false;
+    int signal_when_orphaned = SIGKILL;  ///< what the child gets when the thread that started it ends
 };
 
 /// Whether memory_limit_bytes has an effect: not with AddressSanitizer, which reserves terabytes of address space.

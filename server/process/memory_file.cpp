@@ -1,5 +1,6 @@
 #include "server/process/memory_file.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -16,7 +17,8 @@ namespace {
 
 }  // namespace
 
-MemoryFile::MemoryFile(const char* name, const std::string& bytes) : m_descriptor(memfd_create(name, MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(const char* name, const std::string& bytes)
+    : m_descriptor(memfd_create(name, MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
     if (m_descriptor < 0) fail_memory_file("memfd_create");
     for (std::size_t done = 0; done < bytes.size();) {
         const ssize_t count = write(m_descriptor, bytes.data() + done, bytes.size() - done);
@@ -29,6 +31,8 @@ MemoryFile::MemoryFile(const char* name, const std::string& bytes) : m_descripto
         }
         done += static_cast<std::size_t>(count);
     }
+    // Neither side can change what the child reads.
+    fcntl(m_descriptor, F_ADD_SEALS, F_SEAL_SEAL | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE);
 }
 
 MemoryFile::~MemoryFile() {

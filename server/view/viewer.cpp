@@ -14,7 +14,7 @@
 #include "renderer/core/errors.h"
 #include "renderer/core/files.h"
 #include "renderer/counting/loop_check.h"
-#include "renderer/files/picture_file.h"
+#include "renderer/pictures/picture_file.h"
 #include "server/view/orbit.h"
 
 namespace sheer::view {

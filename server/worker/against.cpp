@@ -4,12 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include "renderer/core/clock.h"
-#include "renderer/files/against.h"
+#include "renderer/core/exit_codes.h"
 #include "renderer/files/report_document.h"
-#include "server/jobs/limits.h"
-#include "server/jobs/store_errors.h"
 
 namespace sheer {
+
+using nlohmann::json;
 
 namespace {
 
@@ -26,50 +26,53 @@ std::string age_text(std::int64_t age_ms) {
     return text(minutes / (24 * 60), "day");
 }
 
-/// None if the report is gone, not done or cannot be read.
-std::optional<report::Report> stored_report(Store& store, const std::string& id) {
+/// Null if the report is gone, not done or cannot be read.
+json stored_report(Store& store, const std::string& id) {
     const auto record = store.reports().find(id);
-    if (!record || record->status != Status::done) return std::nullopt;
+    if (!record || record->status != Status::done) return nullptr;
     try {
-        report::Report report = read_report(nlohmann::json::parse(record->report));
-        check_comparable(report);
-        return report;
+        json document = json::parse(record->report);
+        check_comparable(read_report(document));
+        return document;
     } catch (const std::exception& error) {
         spdlog::error("the report {} cannot be compared with: {}", id, error.what());
-        return std::nullopt;
+        return nullptr;
     }
 }
 
-std::vector<Accepted> accepted_for(Store& store, const std::string& against, std::int64_t now_ms) {
-    std::vector<Accepted> all;
+json accepted_for(Store& store, const std::string& against, std::int64_t now_ms) {
+    json all = json::array();
+    const auto add = [&](const std::string& id, const AcceptedReport& one, const std::string& accepted_at) {
+        if (json report = stored_report(store, id); !report.is_null())
+            all.push_back({{"report", std::move(report)},
+                           {"baseline", one.name},
+                           {"accepted_at", accepted_at},
+                           {"by", one.by},
+                           {"age", age_text(now_ms - one.accepted_ms)}});
+    };
     if (!against.starts_with(baseline_prefix)) {
-        if (auto report = stored_report(store, against)) all.push_back({.report = std::move(*report)});
-        return all;
+        add(against, {}, "");
+    } else {
+        for (const AcceptedReport& one : store.baselines().list(against.substr(baseline_prefix.size())))
+            add(one.report_id, one, utc_text(one.accepted_ms));
     }
-    for (const AcceptedReport& one : store.baselines().list(against.substr(baseline_prefix.size())))
-        if (auto report = stored_report(store, one.report_id))
-            all.push_back({.report = std::move(*report),
-                           .baseline = one.name,
-                           .accepted_at = utc_text(one.accepted_ms),
-                           .by = one.by,
-                           .age = age_text(now_ms - one.accepted_ms)});
     return all;
 }
 
 }  // namespace
 
-void compare_with_baseline(Store& store, FinishedReport& finished) {
-    const nlohmann::json against = finished.report.at("spec").value("against", nlohmann::json());
+void compare_with_baseline(Store& store, FinishedReport& finished, const std::filesystem::path& pictures,
+                           const std::string& data, const ChildLimits& limits) {
+    const json against = finished.report.at("spec").value("against", json());
     if (!against.is_string()) return;
-    auto report = from_document<report::Report>(finished.report);
-    const auto own = [&](const report::Picture& picture) { return finished.read_blob(picture.sha256); };
-    const auto accepted = [&](const report::Picture& picture) {
-        const auto blob = store.blobs().open(picture.sha256);
-        if (!blob) throw DamagedData(fmt::format("the picture {} is missing", picture.sha256));
-        return read_all(*blob->content, max_picture_bytes);
-    };
-    compare_against(report, accepted_for(store, against, finished.finished_ms), own, accepted);
-    finished.report = to_document(report);
+    const json question{{"report", finished.report}, {"accepted", accepted_for(store, against, finished.finished_ms)}};
+    const ChildReply reply =
+        ask_child({"against-stored", "--data", data, "--own", pictures.string()}, question.dump(), limits);
+    json line = json::parse(reply.line, nullptr, false);
+    if (reply.status.code != exit_ok || !line.is_object() || !line.contains("report"))
+        throw std::runtime_error("the comparison with the baseline failed: " +
+                                 ending_text("against-stored", reply.status));
+    finished.report = std::move(line["report"]);
 }
 
 }  // namespace sheer

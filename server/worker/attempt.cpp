@@ -46,6 +46,7 @@ ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
     ChildRun run;
     run.options.program = m_options.program;
     run.options.arguments = {"render", spec.string(), "--out", out.string(), "--data", m_options.data};
+    confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
     run.time_limit = m_options.time_limit;
     run.wake_descriptor = m_stop.descriptor();
@@ -116,7 +117,13 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
 FinishedReport Attempt::finished_report(const fs::path& out) {
     FinishedReport finished = read_report_folder(out, m_lease, m_clock());
     // The pictures of a large sweep take longer than a lease.
-    std::future<void> comparing = std::async(std::launch::async, [&] { compare_with_baseline(m_store, finished); });
+    std::future<void> comparing = std::async(std::launch::async, [&] {
+        compare_with_baseline(m_store, finished, out, m_options.data,
+                              {.memory_bytes = m_options.memory_limit_bytes,
+                               .time = m_options.time_limit,
+                               .program = m_options.program,
+                               .sandbox = m_options.sandbox});
+    });
     while (comparing.wait_for(std::chrono::milliseconds(m_options.rules.heartbeat_ms)) != std::future_status::ready)
         m_queue.heartbeat(m_lease, m_progress.fraction, "comparing with the baseline");
     comparing.get();

@@ -82,6 +82,7 @@ void Worker::probe(StopSignal& stop) {
     ChildRun run;
     run.options.program = m_options.program;
     run.options.arguments = {"render", "--probe"};
+    confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
     run.time_limit = probe_time_limit;
     run.wake_descriptor = stop.descriptor();

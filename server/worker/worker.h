@@ -7,6 +7,8 @@
 #include "server/jobs/lease_rules.h"
 #include "server/jobs/store.h"
 #include "server/process/child_process.h"
+#include "server/process/rendering_program.h"
+#include "server/process/sandbox_settings.h"
 #include "server/process/stop_signal.h"
 
 namespace sheer {
@@ -15,12 +17,13 @@ struct WorkerOptions {
     std::filesystem::path scratch;  ///< the folder that renderers write to
     std::string data;               ///< tells a renderer which store holds the uploaded files
     std::string name;               ///< unique among all workers that ever lived
-    std::string program = own_program;
+    std::string program = rendering_program();
     std::uint64_t memory_limit_bytes = std::uint64_t{8} << 30;  ///< of the rendering child; 0: none
     std::chrono::milliseconds time_limit{1'800'000};
     std::chrono::milliseconds poll_interval{150};
     std::chrono::milliseconds probe_interval{30'000};
     LeaseRules rules;
+    SandboxSettings sandbox{.enabled = false};
 };
 
 /// Leases jobs, renders each in a child process that may die, and commits the reports.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../unit/metric_pictures.h"
-#include "renderer/files/picture_file.h"
+#include "renderer/pictures/picture_file.h"
 
 namespace sheer::test {
 namespace {

@@ -90,7 +90,8 @@ async function with_disk_at(name, body) {
     ];
     await service.start();
     service.disk = () => join(`/proc/${service.process.pid}/root`, service.data, name);
-    rmSync(join(service.disk(), "lost+found"), { recursive: true });
+    // A worker may have swept it up already.
+    rmSync(join(service.disk(), "lost+found"), { recursive: true, force: true });
     await body(service, disk);
     await service.end_well();
   } finally {

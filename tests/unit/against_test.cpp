@@ -1,12 +1,12 @@
 // The comparison of a report with an accepted one.
-#include "renderer/files/against.h"
+#include "renderer/diff/against.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "renderer/core/sha256.h"
-#include "renderer/files/picture_file.h"
 #include "renderer/files/report_document.h"
+#include "renderer/pictures/picture_file.h"
 
 namespace sheer::against_test {
 

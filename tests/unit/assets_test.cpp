@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "renderer/assets/check_asset.h"
+#include "renderer/scene/asset_kinds.h"
+
 #include "renderer/assets/file_assets.h"
 #include "renderer/assets/picture_file.h"
 #include "renderer/assets/scaler.h"

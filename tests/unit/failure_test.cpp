@@ -1,5 +1,5 @@
 // What the renderer reports of an error: the texts of our own errors, nothing of others.
-#include "server/cli/failure.h"
+#include "server/cli/rendering/failure.h"
 
 #include <gtest/gtest.h>
 

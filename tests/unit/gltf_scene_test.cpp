@@ -6,6 +6,7 @@
 
 #include "renderer/assets/check_asset.h"
 #include "renderer/assets/file_assets.h"
+#include "renderer/scene/asset_kinds.h"
 #include "renderer/scene/scene_info.h"
 #include "renderer/spec/spec.h"
 #include "tests/unit/glb_writer.h"

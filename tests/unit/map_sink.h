@@ -2,7 +2,7 @@
 #include <map>
 #include <string>
 
-#include "renderer/files/blob_sink.h"
+#include "renderer/pictures/blob_sink.h"
 #include "renderer/report/report.h"
 
 namespace sheer {

@@ -1,5 +1,5 @@
 // A report's data on one pixel: values and counts read from the report's pictures.
-#include "renderer/files/pixel.h"
+#include "renderer/pictures/pixel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "renderer/files/picture_file.h"
 #include "renderer/image/magma.h"
 #include "renderer/image/pixel_counts.h"
+#include "renderer/pictures/picture_file.h"
 #include "tests/unit/schema_walk.h"
 
 namespace sheer::pixel_test {

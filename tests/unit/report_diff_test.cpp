@@ -2,9 +2,9 @@
 
 #include "renderer/core/errors.h"
 #include "renderer/core/sha256.h"
-#include "renderer/files/diff.h"
-#include "renderer/files/picture_file.h"
+#include "renderer/diff/diff.h"
 #include "renderer/files/report_document.h"
+#include "renderer/pictures/picture_file.h"
 #include "tests/unit/map_sink.h"
 #include "tests/unit/schema_walk.h"
 

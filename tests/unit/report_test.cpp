@@ -9,8 +9,8 @@
 
 #include "renderer/command/command.h"
 #include "renderer/core/sha256.h"
-#include "renderer/files/blob_sink.h"
-#include "renderer/files/picture_file.h"
+#include "renderer/pictures/blob_sink.h"
+#include "renderer/pictures/picture_file.h"
 #include "tests/unit/map_sink.h"
 
 namespace sheer::report_test {

@@ -82,12 +82,12 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
     EXPECT_EQ(config.leases.max_attempts, 5);
     EXPECT_EQ(config.worker.rules.lease_ms, 19'000);
     EXPECT_EQ(config.answers.max_asset_bytes, 1027u);
-    EXPECT_EQ(config.upload_check.memory_limit_bytes, 21u);
-    EXPECT_EQ(config.upload_check.time_limit, 22s);
+    EXPECT_EQ(config.upload_check.memory_bytes, 21u);
+    EXPECT_EQ(config.upload_check.time, 22s);
     EXPECT_EQ(config.worker.memory_limit_bytes, 23u);
-    EXPECT_EQ(config.pixel.memory_limit_bytes, 23u);
+    EXPECT_EQ(config.question.memory_bytes, 23u);
     EXPECT_EQ(config.worker.time_limit, 24s);
-    EXPECT_EQ(config.pixel.time_limit, 25s);
+    EXPECT_EQ(config.question.time, 25s);
     EXPECT_EQ(config.worker.poll_interval, 250ms);
     EXPECT_EQ(config.worker.probe_interval, 27s);
 }

@@ -20,7 +20,7 @@ class UploadCheckTest : public testing::Test {
     /// $1 is check-asset, $2 the file, $3 --type, $4 the media type.
     UploadVerdict check_with(const std::string& script, const std::string& bytes = "bytes",
                              std::chrono::milliseconds time_limit = 20s) {
-        UploadCheckOptions options{.memory_limit_bytes = 0, .time_limit = time_limit};
+        ChildLimits options{.time = time_limit};
         options.program = m_folder.file("checker", "#!/bin/sh\n" + script + "\n");
         std::filesystem::permissions(options.program, std::filesystem::perms::owner_all);
         return check_upload(bytes, "image/png", options);

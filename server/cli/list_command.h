@@ -1,0 +1,13 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace sheer::cli {
+
+/// Adds a command that prints what `describe` returns, a JSON array: each entry as `line` makes it, or all with --json.
+void add_list(CLI::App& app, int& exit_code, const std::string& name, const std::string& summary,
+              std::function<nlohmann::json()> describe, std::function<std::string(const nlohmann::json&)> line);
+
+}  // namespace sheer::cli
