@@ -3,6 +3,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,13 @@ struct PictureChange {
     Metrics metrics;
 };
 
+/// The GPU's clock while a method was timed.
+struct ClockLog {
+    std::vector<unsigned> sm_mhz;  ///< after each timed frame; empty if there is nothing that tells it
+    int retaken = 0;               ///< frames that were timed again as the clock was lowered
+    std::set<std::string> lowered_by;
+};
+
 /// The result of one method at one point.
 struct MethodResult {
     MethodSpec method;
@@ -41,6 +49,7 @@ struct MethodResult {
     std::string reason;  ///< why it is not ok
     Image image;
     std::vector<gl::FrameSample> samples;  ///< every timed frame, in the order of the rounds
+    ClockLog clock;
     bool sorts = false;                    ///< it draws in depth order
     std::vector<double>
         sort_ms;  ///< wall time of sorting for each of these frames (DepthSort); empty if there was none

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/compare/gpu_clock.h"
 #include "renderer/compare/looks.h"
 #include "renderer/compare/workbench.h"
 #include "renderer/core/random.h"
@@ -19,7 +20,12 @@ class Contenders {
   public:
     /// All references must outlive it; `run` has the methods' results.
     Contenders(const Spec& spec, const Looks& looks, const Target& target, Workbench& bench, Run& run)
-        : m_spec(spec), m_looks(looks), m_target(target), m_bench(bench), m_run(run) {}
+        : m_spec(spec),
+          m_looks(looks),
+          m_target(target),
+          m_bench(bench),
+          m_run(run),
+          m_clock(open_gpu_clock(bench.device().renderer)) {}
 
     /// Renders each method until it is warm, and keeps its picture. The baseline is made twice: how much it differs
     /// from itself is the noise with which every other difference is compared.
@@ -54,6 +60,8 @@ class Contenders {
     void attempt_for(MethodResult& result, const std::string& doing, const std::function<void()>& step);
     std::unique_ptr<Method> make_warm(const MethodSpec& method);
     void time_round(Random& random);
+    /// A timed frame. It is rendered again while the GPU's clock is lowered, but not without end.
+    gl::FrameSample timed_frame(const Contender& contender);
     /// Until there are this many rounds, or the time is over, which it returns.
     bool time_rounds(int count, Random& random, RoundClock& clock);
     void drop_failed();
@@ -63,6 +71,7 @@ class Contenders {
     const Target& m_target;
     Workbench& m_bench;
     Run& m_run;
+    std::unique_ptr<GpuClock> m_clock;  ///< null if nothing tells it
     std::optional<DepthSort> m_sort;  ///< if a method sorts
     std::vector<Contender> m_all;
 };

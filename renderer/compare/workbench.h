@@ -24,6 +24,7 @@ class Workbench {
         : m_spec(spec), m_context(context), m_progress(progress), m_notes(notes), m_timer(context) {}
 
     const gl::Functions& gl() const { return m_context.gl(); }
+    const gl::DeviceInfo& device() const { return m_context.device(); }
     /// Throws RenderError for OpenGL errors since the last call; `doing` says what was done since then.
     void check(const std::string& doing) const { m_context.check(doing); }
     /// Reports that step `index` of `count` begins, in a stage that takes the job's progress from the fraction `from`

@@ -118,6 +118,13 @@ report::Timing Timings::timing(const MethodResult& result) const {
         timing.wall_samples.push_back(sample.wall_ms);
         timing.disagreeing_samples += sample.valid ? 0 : 1;
     }
+    if (result.clock.sm_mhz.empty()) {
+        timing.gpu_clock_mhz.reason = "there is no NVML with this device";
+    } else {
+        timing.gpu_clock_mhz.value = result.clock.sm_mhz;
+    }
+    timing.retaken_samples = result.clock.retaken;
+    timing.clock_lowered_by.assign(result.clock.lowered_by.begin(), result.clock.lowered_by.end());
     timing.sort = sort(result);
     return timing;
 }

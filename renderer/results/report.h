@@ -66,6 +66,9 @@ struct Timing : TimeSummary {
     std::vector<PassTime> passes;
     std::vector<double> gpu_samples, wall_samples;
     std::size_t disagreeing_samples = 0;
+    OrReason<std::vector<unsigned>> gpu_clock_mhz;
+    int retaken_samples = 0;
+    std::vector<std::string> clock_lowered_by;
     OrReason<TimeSummary> sort;
 };
 

@@ -150,6 +150,12 @@ const Description<report::Timing>& description_of() {
             .member(&report::Timing::wall_samples, "wall_samples", "by the wall clock, in ms")
             .member(&report::Timing::disagreeing_samples, "disagreeing_samples",
                     "frames over 5 ms for which the two clocks differ by more than 10 %")
+            .member(&report::Timing::gpu_clock_mhz, "gpu_clock_mhz",
+                    "clock of the GPU's shader cores after each frame, from NVML; null if nothing tells it")
+            .member(&report::Timing::retaken_samples, "retaken_samples",
+                    "frames that were thrown away and timed again, since the GPU's clock was lowered")
+            .member(&report::Timing::clock_lowered_by, "clock_lowered_by",
+                    "what lowered the GPU's clock during any frame, such as heat")
             .member(&report::Timing::sort, "sort",
                     "time to recompute the order in each frame; not included in `samples`");
     return description;
