@@ -9,8 +9,10 @@ namespace {
 /// A field can have a value of any type, but all values in an array are of one type.
 nlohmann::json any_value_schema() {
     nlohmann::json schema = {{"anyOf", {{{"type", {"null", "boolean", "number", "string", "object"}}}}}};
-    for (const char* type : {"boolean", "number", "string", "object", "array"})
+    for (const char* type : {"boolean", "number", "string", "object"})
         schema["anyOf"].push_back({{"type", "array"}, {"items", {{"type", {type, "null"}}}}});
+    schema["anyOf"].push_back(
+        {{"type", "array"}, {"items", {{"type", {"array", "null"}}, {"items", nlohmann::json::object()}}}});
     return schema;
 }
 

@@ -33,7 +33,8 @@ json findings_schema(SchemaBook&) {
 json point_schema(SchemaBook&) {
     return {{"type", "object"},
             {"propertyNames", {{"pattern", "^/"}}},
-            {"additionalProperties", {{"type", {"number", "boolean", "string", "array", "object"}}}}};
+            {"additionalProperties",
+             {{"type", {"number", "boolean", "string", "array", "object"}}, {"items", json::object()}}}};
 }
 
 json spec_reference(SchemaBook& book) {

@@ -56,7 +56,9 @@ class SweptFields {
         // Objects are described by their fields only: few sweeps set a whole object, and the schema would double in
         // size.
         if (param.kind == Param::Kind::object || param.kind == Param::Kind::list) {
-            add_schema(pointer, {{"type", schema["type"]}});
+            json whole = {{"type", schema["type"]}};
+            if (param.kind == Param::Kind::list) whole["items"] = json::object();
+            add_schema(pointer, whole);
         } else {
             add_schema(pointer, schema);
         }
@@ -92,7 +94,7 @@ json swept_axis_schema() {
                    {"additionalProperties", false},
                    {"properties",
                     {{"pointer", {{"type", "string"}, {"pattern", "^/(?:scene|image|methods)/"}}},
-                     {"values", {{"type", "array"}, {"minItems", 1}}}}},
+                     {"values", {{"type", "array"}, {"minItems", 1}, {"items", json::object()}}}}},
                    {"required", {"pointer", "values"}}};
     for (const auto& [pattern, value] : SweptFields().by_pattern())
         values["allOf"].push_back(

@@ -90,9 +90,11 @@ void serve(const ServeOptions& options) {
         .limits = config.answers,
         .without_sandbox = note_sandbox(config.sandbox),
         .needs_sandbox = config.sandbox.required,
-        .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); }};
-    const http::Application application(http::make_guard(http::is_loopback(endpoint), config.allowed_hosts),
-                                        http::make_router(service));
+        .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); },
+        .path_prefix = config.path_prefix};
+    const http::Application application(
+        http::make_guard(http::is_loopback(endpoint), config.allowed_hosts, config.cors_origins),
+        http::make_router(service), http::PathPrefix(config.path_prefix));
     http::Server server(endpoint, config.http,
                         {.answer = [&](http::Request request) { return application.answer(std::move(request)); },
                          .handling = [&](std::string_view method,
@@ -100,7 +102,7 @@ void serve(const ServeOptions& options) {
                          .changes = store.watch(),
                          .reload = [&options] { reload(options); }});
     Supervisor workers(store.queue(), supervisor_options(config, options));
-    fmt::print("Sheer listens on {}\n", http::url_of(server.endpoint()));
+    fmt::print("Sheer listens on {}{}\n", http::url_of(server.endpoint()), config.path_prefix);
     std::fflush(stdout);
     server.run();
 }

@@ -7,6 +7,9 @@
 #include <functional>
 #include <type_traits>
 
+#include "server/http/guard.h"
+#include "server/http/path_prefix.h"
+
 namespace sheer::cli {
 
 using nlohmann::json;
@@ -81,6 +84,10 @@ Section general_settings() {
                 .kind = Param::Kind::any,
                 .summary = "further host names for which the service answers"};
     hosts.default_value = json::array();
+    Param origins{.name = "cors_origins",
+                  .kind = Param::Kind::any,
+                  .summary = "origins of other sites, such as https://ci.example, whose pages may use the service"};
+    origins.default_value = json::array();
     return {"",
             "",
             {{Param::text("listen", "ADDRESS:PORT; port 0 takes any free port, which is printed on standard output",
@@ -95,6 +102,13 @@ Section general_settings() {
                      "", 0, 256, at(&ServiceConfig::workers)),
              {hosts, [](ServiceConfig& config,
                         const json& value) { config.allowed_hosts = value.get<std::set<std::string>>(); }},
+             {origins, [](ServiceConfig& config,
+                          const json& value) { config.cors_origins = value.get<std::set<std::string>>(); }},
+             {Param::text("path_prefix",
+                          "path under which a proxy offers the service, such as `/sheer`: page, links, Location and "
+                          "events are all below it",
+                          defaults.path_prefix, 200),
+              [](ServiceConfig& config, const json& value) { config.path_prefix = value; }},
              {Param::choice("log_level", "least severe messages that are logged; reloaded on SIGHUP",
                             defaults.log_level, {"debug", "info", "warning", "error"}),
               [](ServiceConfig& config, const json& value) { config.log_level = value; }}}};
@@ -201,10 +215,13 @@ std::vector<Section> all_settings() {
             assets_settings(),  worker_settings(), sandbox_settings()};
 }
 
-void check_texts(const json& texts, const std::string& pointer, std::vector<FieldError>& errors) {
+void check_texts(const std::string& pointer, const json& texts, std::vector<FieldError>& errors,
+                 const std::function<std::string(const std::string&)>& wrong) {
     if (!texts.is_array()) errors.push_back({pointer, "must be an array of texts"});
-    for (std::size_t i = 0; texts.is_array() && i < texts.size(); ++i)
-        if (!texts[i].is_string()) errors.push_back({fmt::format("{}/{}", pointer, i), "must be a text"});
+    for (std::size_t i = 0; texts.is_array() && i < texts.size(); ++i) {
+        const std::string what = texts[i].is_string() ? wrong(texts[i]) : "must be a text";
+        if (!what.empty()) errors.push_back({fmt::format("{}/{}", pointer, i), what});
+    }
 }
 
 }  // namespace
@@ -227,8 +244,12 @@ ServiceConfig read_service_config(const json& document) {
     if (!document.is_object()) throw SpecError(std::vector<FieldError>{{"", "must be a JSON object"}});
     std::vector<FieldError> errors;
     const json read = read_fields(document, "", service_config_fields(), errors);
-    check_texts(read["allowed_hosts"], "/allowed_hosts", errors);
-    check_texts(read["sandbox"]["readable"], "/sandbox/readable", errors);
+    check_texts("/allowed_hosts", read["allowed_hosts"], errors, [](const std::string&) { return ""; });
+    check_texts("/sandbox/readable", read["sandbox"]["readable"], errors, [](const std::string&) { return ""; });
+    check_texts("/cors_origins", read["cors_origins"], errors, http::wrong_origin);
+    if (errors.empty())
+        if (const std::string wrong = http::wrong_path_prefix(read["path_prefix"].get<std::string>()); !wrong.empty())
+            errors.push_back({"/path_prefix", wrong});
     if (errors.empty() && read["jobs"]["lease_s"] <= read["jobs"]["heartbeat_s"])
         errors.push_back({"/jobs/lease_s", "must be longer than heartbeat_s"});
     if (!errors.empty()) throw SpecError(std::move(errors));

@@ -20,6 +20,8 @@ struct ServiceConfig {
     std::filesystem::path data = "sheer-data";
     int workers = 1;
     std::set<std::string> allowed_hosts;
+    std::set<std::string> cors_origins;
+    std::string path_prefix;
     std::string log_level = "info";  ///< a name that spdlog knows
     http::Limits http;
     http::AnswerLimits answers;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "renderer/params/json_text.h"
+#include "server/http/negotiation.h"
 #include "server/http/preconditions.h"
 #include "server/http/problem.h"
 #include "server/http/text.h"
@@ -58,9 +59,45 @@ void check_body_type(const Route& route, const std::optional<std::string>& conte
         .with("Accept", wanted);
 }
 
+/// For a request that changes nothing, the same response; 304 if its sender has it already, 412 if If-Match is not
+/// satisfied. `etag` is that of the uncompressed body.
+Response unless_known(Response response, const Request& request, const std::string& etag) {
+    if (response.status != 200 || !is_safe(request.method)) return response;
+    switch (judge_preconditions(request, etag)) {
+        case Precondition::met:
+            break;
+        case Precondition::not_modified:
+            response.status = 304;
+            response.body = std::string();
+            break;
+        case Precondition::failed:
+            return problem(412, "If-Match is not satisfied.");
+    }
+    return response;
+}
+
+void check_body_coding(const Request& request) {
+    const auto coding = request.headers.joined("Content-Encoding");
+    if (coding && *coding != "identity")
+        throw Problem(415, fmt::format("The body must not be compressed, as it is with {}.", *coding))
+            .with("Accept-Encoding", "identity");
+}
+
+/// Errors are problems, whatever Accept says.
+void check_accept(const Route& route, const Request& request) {
+    const auto accept = request.headers.joined("Accept");
+    std::vector<std::string> types;
+    for (const Reply& reply : route.replies)
+        if (reply.status < 300 && !reply.media_type.empty()) types.push_back(reply.media_type);
+    const auto is_accepted = [&](const std::string& type) { return accepts(accept, type); };
+    if (types.empty() || std::ranges::any_of(types, is_accepted)) return;
+    throw Problem(406, fmt::format("There is no such form of this, only {}.", types.front()));
+}
+
 }  // namespace
 
 Handling Application::handling(std::string_view method, std::string_view target) const {
+    target = m_prefix.stripped(target);
     const Match match = m_router.match(method, target.substr(0, target.find('?')));
     if (match.route == nullptr) return {};
     Handling handling{.lane = match.route->lane, .is_probe = match.route->is_probe};
@@ -68,18 +105,32 @@ Handling Application::handling(std::string_view method, std::string_view target)
     return handling;
 }
 
+Response Application::sent(Response response, const Request& request) const {
+    const std::string etag = response.headers.find("ETag").value_or("");
+    response = m_prefix.put_before(std::move(response));
+    choose_coding(response, request);
+    m_guard.permit(request, response.headers);
+    return encoded(finished(unless_known(std::move(response), request, etag)));
+}
+
 Answer Application::answer(Request request) const {
+    if (auto redirection = m_prefix.redirection(request.target)) return finished(std::move(*redirection));
+    request.target = std::string(m_prefix.stripped(request.target));
+    request = without_coding(std::move(request));
     Answer answer = caught<Answer>(request, [&] { return handle(request); });
-    if (auto* response = std::get_if<Response>(&answer)) return unless_known(std::move(*response), request);
-    if (auto* stream = std::get_if<EventStream>(&answer)) stream->head = finished(std::move(stream->head));
+    if (auto* response = std::get_if<Response>(&answer)) return sent(std::move(*response), request);
+    if (auto* stream = std::get_if<EventStream>(&answer)) {
+        m_guard.permit(request, stream->head.headers);
+        stream->head = finished(std::move(stream->head));
+    }
     if (auto* waiting = std::get_if<Waiting>(&answer)) {
-        waiting->ready = [ready = std::move(waiting->ready), request]() -> std::optional<Response> {
+        waiting->ready = [this, ready = std::move(waiting->ready), request]() -> std::optional<Response> {
             auto response = caught<std::optional<Response>>(request, ready);
-            if (response) response = finished(std::move(*response));
+            if (response) response = sent(std::move(*response), request);
             return response;
         };
-        waiting->otherwise = [otherwise = std::move(waiting->otherwise), request] {
-            return finished(caught<Response>(request, otherwise));
+        waiting->otherwise = [this, otherwise = std::move(waiting->otherwise), request] {
+            return sent(caught<Response>(request, otherwise), request);
         };
     }
     return answer;
@@ -104,26 +155,13 @@ Answer Application::handle(Request& request) const {
     request.path_values = std::move(match.path_values);
     request.query = read_query(question == std::string_view::npos ? "" : target.substr(question + 1),
                                match.route->query, match.route->wrong_query_status);
+    check_accept(*match.route, request);
+    check_body_coding(request);
     check_body_type(*match.route, request.headers.find("Content-Type"));
     if (!is_safe(request.method) &&
         judge_preconditions(request, match.route->etag ? match.route->etag(request) : "") != Precondition::met)
         throw Problem(412, "If-Match or If-None-Match is not satisfied; nothing was done.");
     return match.route->handle(request);
-}
-
-Response unless_known(Response response, const Request& request) {
-    if (response.status != 200 || !is_safe(request.method)) return finished(std::move(response));
-    switch (judge_preconditions(request, response.headers.find("ETag").value_or(""))) {
-        case Precondition::met:
-            break;
-        case Precondition::not_modified:
-            response.status = 304;
-            response.body = std::string();
-            break;
-        case Precondition::failed:
-            return finished(problem(412, "If-Match is not satisfied."));
-    }
-    return finished(std::move(response));
 }
 
 Response finished(Response response) {

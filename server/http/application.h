@@ -1,6 +1,7 @@
 #pragma once
 #include "server/http/guard.h"
 #include "server/http/message.h"
+#include "server/http/path_prefix.h"
 #include "server/http/router.h"
 
 namespace sheer::http {
@@ -9,7 +10,8 @@ namespace sheer::http {
 /// thread.
 class Application {
   public:
-    Application(Guard guard, Router router) : m_guard(std::move(guard)), m_router(std::move(router)) {}
+    Application(Guard guard, Router router, PathPrefix prefix = PathPrefix())
+        : m_guard(std::move(guard)), m_router(std::move(router)), m_prefix(std::move(prefix)) {}
     /// Never throws: errors become problems. HEAD is answered like GET; the sender leaves out the body.
     Answer answer(Request request) const;
     /// How to treat a request with this method and target before its body has arrived.
@@ -17,16 +19,16 @@ class Application {
 
   private:
     Answer handle(Request& request) const;
+    /// In the form in which its sender wants it.
+    Response sent(Response response, const Request& request) const;
 
     Guard m_guard;
     Router m_router;
+    PathPrefix m_prefix;
 };
 
 /// Added to every response: headers that protect against misuse by other sites.
 Response finished(Response response);
-/// For a request that changes nothing, the same response; 304 if its sender has it already, 412 if If-Match is not
-/// satisfied.
-Response unless_known(Response response, const Request& request);
 
 /// The body of a request as JSON. Throws Problem: 400 if it is not JSON, or is nested so deeply that it must be
 /// malicious.

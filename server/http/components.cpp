@@ -61,11 +61,19 @@ json any_report(SchemaBook& book) {
 }
 
 json openapi_schema(SchemaBook&) {
-    const json object = {{"type", "object"}}, text = {{"type", "string"}};
+    const json object = {{"type", "object"}}, text = {{"type", "string"}},
+               list = {{"type", "array"}, {"items", object}};
     return {{"type", "object"},
             {"description", "a description of the service, OpenAPI 3.1"},
-            {"properties", {{"openapi", text}, {"info", object}, {"paths", object}, {"components", object}}},
-            {"required", {"openapi", "info", "paths", "components"}},
+            {"properties",
+             {{"openapi", text},
+              {"info", object},
+              {"servers", list},
+              {"security", list},
+              {"tags", list},
+              {"paths", object},
+              {"components", object}}},
+            {"required", {"openapi", "info", "servers", "security", "tags", "paths", "components"}},
             {"additionalProperties", false}};
 }
 

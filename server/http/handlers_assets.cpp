@@ -134,16 +134,22 @@ Route post_route(Service& service) {
             .pattern = assets_path,
             .id = "createAsset",
             .summary = "Upload a file that specs can refer to by its SHA-256",
+            .description =
+                "The body is the file, and Content-Type says how it is read. It is decoded once, in a process that may "
+                "die, before it is kept.",
             .query = {Param::text("name", "a name for the list", "", max_name_bytes)},
-            .replies = {{201, "It is stored; Location is its address", "application/json", "Asset"},
-                        {200, "It had already been uploaded", "application/json", "Asset"},
+            .replies = {{201, "It is stored; Location is its address", "application/json", "Asset", {"Location"}},
+                        {200, "It had already been uploaded", "application/json", "Asset", {"Location"}},
                         {409, "The same bytes have already been uploaded with another type", "application/problem+json",
                          "Problem"},
                         {422, "The file does not match its type; `detail` has the reason", "application/problem+json",
                          "Problem"},
                         {507, "There is no room for it", "application/problem+json", "Problem"},
-                        {429, "Other uploads are being read; Retry-After says when to try again",
-                         "application/problem+json", "Problem"}},
+                        {429,
+                         "Other uploads are being read; Retry-After says when to try again",
+                         "application/problem+json",
+                         "Problem",
+                         {"Retry-After"}}},
             .handle = [&service, checks](const Request& request) { return post_asset(service, *checks, request); },
             .body_types = std::move(media_types),
             .body_bytes = service.limits.max_asset_bytes};
@@ -177,7 +183,7 @@ std::vector<Route> asset_routes(Service& service) {
              .query = {Param::integer("limit", "greatest number of files", "", 100, 1, 1000)},
              .replies = {{200, "The list", "application/json", "AssetList"}},
              .handle = [&service](const Request& request) { return list_assets(service, request); }},
-            one_route("GET", "getAsset", "The bytes of an uploaded file", {{200, "The file", "*/*", ""}},
+            one_route("GET", "getAsset", "The bytes of an uploaded file", {{200, "The file", "*/*", "", {"ETag"}}},
                       [&service](const Request& request) { return get_asset(service, request); }),
             std::move(remove)};
 }

@@ -109,6 +109,9 @@ std::vector<Route> baseline_routes(Service& service) {
          {409, "The report is not done", "application/problem+json", "Problem"}},
         [&service](const Request& request) { return put_baseline(service, request); });
     put.body_schema = "Acceptance";
+    put.description =
+        "Reports are never accepted by themselves. Several can be accepted under one name; of those from the same "
+        "device, the one accepted last is compared with.";
     Route forget = baseline_route("DELETE", "forgetBaseline",
                                   "Forget a baseline, or one report of it; the reports themselves stay",
                                   {{204, "It is forgotten", "", ""}, unknown},

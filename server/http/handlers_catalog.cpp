@@ -27,7 +27,7 @@ Route catalog_route(std::string path, std::string id, std::string summary, std::
             .pattern = std::move(path),
             .id = std::move(id),
             .summary = std::move(summary),
-            .replies = {{200, "The list", "application/json", std::move(schema)}},
+            .replies = {{200, "The list", "application/json", std::move(schema), {"ETag"}}},
             .handle = std::move(handle)};
 }
 

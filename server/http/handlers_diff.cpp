@@ -63,6 +63,9 @@ std::vector<Route> diff_routes(Service& service) {
              .pattern = std::string(reports_path) + "/{id}/diff",
              .id = "diffReports",
              .summary = "What changed between two done reports of the same spec, in pictures and in time",
+             .description =
+                 "Pictures are compared pixel by pixel, times by their intervals, after a correction for the machine's "
+                 "own change of speed.",
              .query = {Param::text("against", "id of the later report", "", max_id_bytes).required(), std::move(run),
                        Param::text("allow",
                                    "JSON pointers into the spec, separated by commas, such as /scene/shading/glsl: the "
@@ -73,8 +76,11 @@ std::vector<Route> diff_routes(Service& service) {
                          {409, "A report is not done", "application/problem+json", "Problem"},
                          {422, "The reports have different specs; `errors` names the fields, `allow` what to allow",
                           "application/problem+json", "Problem"},
-                         {429, "Other reports are being compared; Retry-After says when to try again",
-                          "application/problem+json", "Problem"},
+                         {429,
+                          "Other reports are being compared; Retry-After says when to try again",
+                          "application/problem+json",
+                          "Problem",
+                          {"Retry-After"}},
                          {503, "It takes too long", "application/problem+json", "Problem"}},
              .handle = [&service, diffs](const Request& request) { return get_diff(service, *diffs, request); }}};
 }

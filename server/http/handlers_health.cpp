@@ -33,14 +33,15 @@ Route health_route(std::string path, std::string id, std::string summary, std::v
 }  // namespace
 
 std::vector<Route> health_routes(Service& service) {
-    return {health_route("/healthz", "getHealth", "Whether the service is alive",
-                         {{200, "It is", "application/json", "Health"}}, Lane::at_once,
-                         [](const Request&) { return json_response(200, to_document(answer::Health{"ok"})); }),
-            health_route("/readyz", "getReadiness",
-                         "Whether a worker has rendered something recently, and there is room for reports",
-                         {{200, "Both", "application/json", "Readiness"},
-                          {503, "`detail` says what is missing", "application/problem+json", "Problem"}},
-                         Lane::pool, [&service](const Request&) { return get_ready(service); })};
+    return {
+        health_route("/healthz", "getHealth", "Whether the service is alive",
+                     {{200, "It is", "application/json", "Health"}}, Lane::at_once,
+                     [](const Request&) { return json_response(200, to_document(answer::Health{"ok"})); }),
+        health_route("/readyz", "getReadiness",
+                     "Whether a worker has rendered something recently, and there is room for reports",
+                     {{200, "Both", "application/json", "Readiness"},
+                      {503, "`detail` says what is missing", "application/problem+json", "Problem", {"Retry-After"}}},
+                     Lane::pool, [&service](const Request&) { return get_ready(service); })};
 }
 
 }  // namespace sheer::http

@@ -149,25 +149,28 @@ Route route(std::string method, const std::string& suffix, std::string id, std::
 
 std::vector<Route> report_routes(Service& service) {
     const Reply not_done{409, "The report is not done", "application/problem+json", "Problem"};
-    Route events =
-        route("GET", "/events", "getReportEvents", "Progress as server-sent events, then done, failed or cancelled",
-              {{200, "The events, whose ids are revisions of the report", "text/event-stream", "ReportEvent"},
-               {204, "There is nothing after Last-Event-ID, and nothing will come", "", ""}},
-              [&service](const Request& request) { return get_events(service, request); });
+    Route events = route(
+        "GET", "/events", "getReportEvents", "Progress as server-sent events, then done, failed or cancelled",
+        {{200, "The events, whose ids are revisions of the report", "text/event-stream", "ReportEvent", {}, "Events"},
+         {204, "There is nothing after Last-Event-ID, and nothing will come", "", ""}},
+        [&service](const Request& request) { return get_events(service, request); });
     Route remove =
         route("DELETE", "", "deleteReport", "Cancel a queued or running report, or delete one that has ended",
               {{412, "If-Match or If-None-Match is not satisfied", "application/problem+json", "Problem"},
-               {200, "It was queued and is cancelled", "application/json", "AnyReport"},
-               {202, "It is running and will be cancelled", "application/json", "AnyReport"},
+               {200, "It was queued and is cancelled", "application/json", "AnyReport", {"ETag"}, "QueuedReport"},
+               {202, "It is running and will be cancelled", "application/json", "AnyReport", {"ETag"}, "QueuedReport"},
                {204, "It had ended and is deleted", "", ""},
                {409, "It is accepted in a baseline", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return delete_report(service, request); });
     remove.headers = {{"If-Match", "the expected ETag of the report"}};
     remove.etag = [&service](const Request& request) { return report_etag(found_report(service, request)); };
+    events.description =
+        "Each event has the current state; a client that was away gets one event for all it missed. The stream ends "
+        "with the event `done`, `failed` or `cancelled`.";
     events.headers = {{"Last-Event-ID", "the id of the last event that the client received"}};
     return {
         route("GET", "", "getReport", "A report, even while it is queued or running",
-              {{200, "The report", "application/json", "AnyReport"}},
+              {{200, "The report", "application/json", "AnyReport", {"ETag"}}},
               [&service](const Request& request) { return report_response(200, found_report(service, request)); }),
         std::move(events),
         route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
@@ -175,17 +178,17 @@ std::vector<Route> report_routes(Service& service) {
               [&service](const Request& request) { return get_html(service, request); }),
         route("GET", "/junit.xml", "getReportJunit",
               "The checks of a report as JUnit XML; one that failed or was cancelled has an <error>",
-              {{200, "The checks", "application/xml", ""},
+              {{200, "The checks", "application/xml", "", {}, "Junit"},
                {409, "The report has not ended", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return get_junit(service, request); }),
         route("GET", "/summary.md", "getReportSummary",
               "The verdict, the checks and the methods of a report as markdown",
-              {{200, "The summary", "text/markdown", ""},
+              {{200, "The summary", "text/markdown", "", {}, "Summary"},
                {409, "The report has not ended", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return get_summary(service, request); }),
         route("GET", "/report.zip", "getReportZip",
               "A done report with everything: report.json, report.html, junit.xml, summary.md and the pictures",
-              {{200, "The files", "application/zip", ""}, not_done},
+              {{200, "The files", "application/zip", "", {"Content-Disposition"}}, not_done},
               [&service](const Request& request) { return get_zip(service, request); }),
         std::move(remove),
     };

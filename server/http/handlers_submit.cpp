@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "renderer/core/sha256.h"
 #include "renderer/params/param.h"
@@ -9,6 +10,7 @@
 #include "server/http/application.h"
 #include "server/http/paths.h"
 #include "server/http/problem.h"
+#include "server/http/queue_speed.h"
 #include "server/http/report_view.h"
 #include "server/http/service.h"
 #include "server/http/text.h"
@@ -18,9 +20,10 @@ namespace sheer::http {
 namespace {
 
 constexpr std::size_t max_key_bytes = 255;
-// When a client should try again if the queue is full, and while the report is rendered.
-constexpr const char* retry_full_queue_s = "10";
-constexpr const char* retry_report_s = "1";
+
+std::string seconds_text(std::chrono::seconds seconds) {
+    return fmt::format("{}", seconds.count());
+}
 
 std::optional<IdempotencyKey> idempotency_key(const Request& request, const nlohmann::json& document) {
     const auto key = request.headers.find("Idempotency-Key");
@@ -69,7 +72,7 @@ Spec checked_spec(Service& service, const nlohmann::json& document) {
     return spec;
 }
 
-ReportRecord submit(Service& service, const Request& request) {
+ReportRecord submit(Service& service, QueueSpeed& speed, const Request& request) {
     const nlohmann::json document = json_body(request);
     const Spec spec = checked_spec(service, document);
     NewReport report{.id = service.ids.next(), .spec = spec.canonical_text()};
@@ -78,7 +81,7 @@ ReportRecord submit(Service& service, const Request& request) {
     const SubmitResult result = service.store.queue().submit(report, service.limits.max_queued);
     if (result.outcome == SubmitResult::Outcome::queue_full)
         throw Problem(429, fmt::format("{} comparisons are already waiting.", service.limits.max_queued))
-            .with("Retry-After", retry_full_queue_s);
+            .with("Retry-After", seconds_text(speed.until_a_place()));
     if (result.outcome == SubmitResult::Outcome::key_reused)
         throw Problem(422, "This Idempotency-Key was used with another spec.");
     const auto record = service.store.reports().find(result.id);
@@ -86,10 +89,10 @@ ReportRecord submit(Service& service, const Request& request) {
     return *record;
 }
 
-Response accepted(const ReportRecord& record) {
+Response accepted(QueueSpeed& speed, const ReportRecord& record) {
     Response response = report_response(202, record);
     response.headers.add("Location", fmt::format("{}/{}", reports_path, record.id));
-    response.headers.add("Retry-After", retry_report_s);
+    response.headers.add("Retry-After", seconds_text(speed.until_empty()));
     return response;
 }
 
@@ -102,10 +105,10 @@ std::optional<Response> if_final(Service& service, const std::string& id) {
     return response;
 }
 
-Answer post_report(Service& service, const Request& request) {
-    const ReportRecord record = submit(service, request);
+Answer post_report(Service& service, const std::shared_ptr<QueueSpeed>& speed, const Request& request) {
+    const ReportRecord record = submit(service, *speed, request);
     const auto wait_s = preferred_wait_s(request.headers.find("Prefer").value_or(""));
-    if (!wait_s) return accepted(record);
+    if (!wait_s) return accepted(*speed, record);
     const auto limit = std::min(std::chrono::seconds(*wait_s), service.limits.max_wait);
     const auto applied = [limit](Response response) {
         response.headers.add("Preference-Applied", fmt::format("wait={}", limit.count()));
@@ -117,8 +120,8 @@ Answer post_report(Service& service, const Request& request) {
         if (response) response = applied(std::move(*response));
         return response;
     };
-    waiting.otherwise = [&service, record, applied] {
-        return applied(accepted(service.store.reports().find(record.id).value_or(record)));
+    waiting.otherwise = [&service, speed, record, applied] {
+        return applied(accepted(*speed, service.store.reports().find(record.id).value_or(record)));
     };
     return waiting;
 }
@@ -133,26 +136,44 @@ Answer validate_spec(Service& service, const Request& request) {
 std::vector<Route> submit_routes(Service& service) {
     const Reply bad_spec{422, "The spec is wrong; `errors` names every wrong field", "application/problem+json",
                          "Problem"};
+    auto speed = std::make_shared<QueueSpeed>(service.store.reports(), [&service] { return service.clock(); });
     return {
         {.method = "POST",
          .pattern = reports_path,
          .id = "createReport",
          .summary = "Queue a comparison",
+         .description =
+             "The report is rendered by a worker; follow its events, ask for it after Retry-After seconds, or wait "
+             "for it in this call with `Prefer: wait=60`. Repeat a call that got no answer with the same "
+             "Idempotency-Key.",
          .headers = {{"Prefer", "wait=N: answer with the finished report if it is ready within N seconds"},
                      {"Idempotency-Key", "the same key with the same spec returns the same report"}},
          .body_schema = "Spec",
-         .replies = {{202, "Queued; Location is the address of the report", "application/json", "AnyReport"},
-                     {200, "Finished within the time that Prefer gave", "application/json", "AnyReport"},
+         .replies = {{202,
+                      "Queued; Location is the address of the report",
+                      "application/json",
+                      "AnyReport",
+                      {"Location", "Retry-After", "ETag"},
+                      "QueuedReport"},
+                     {200,
+                      "Finished within the time that Prefer gave",
+                      "application/json",
+                      "AnyReport",
+                      {"Location", "ETag", "Preference-Applied"}},
                      bad_spec,
-                     {429, "The queue is full; Retry-After says when to try again", "application/problem+json",
-                      "Problem"},
+                     {429,
+                      "The queue is full; Retry-After says when to try again",
+                      "application/problem+json",
+                      "Problem",
+                      {"Retry-After"}},
                      {507, "There is no room for reports", "application/problem+json", "Problem"}},
-         .handle = [&service](const Request& request) { return post_report(service, request); },
+         .handle = [&service, speed](const Request& request) { return post_report(service, speed, request); },
          .lane = Lane::specs},
         {.method = "POST",
          .pattern = "/api/v1/specs/validate",
          .id = "validateSpec",
          .summary = "Check a spec and fill in its defaults",
+         .description = "Every wrong field is named at once, and the user's own GLSL is compiled; nothing is queued.",
          .body_schema = "Spec",
          .replies = {{200, "The normalised spec", "application/json", "NormalisedSpec"}, bad_spec},
          .handle = [&service](const Request& request) { return validate_spec(service, request); },

@@ -18,6 +18,8 @@ struct Reply {
     std::string description;
     std::string media_type = "application/json";  ///< "" for none
     std::string schema;                           ///< name of a component, "" for any
+    std::vector<std::string> headers;             ///< names that described_headers() knows
+    std::string example;                          ///< name of an example, "" for that of the schema
 };
 
 struct HeaderField {
@@ -31,6 +33,7 @@ struct Route {
     std::string pattern;  ///< "/api/v1/reports/{id}"; a {name} stands for one segment
     std::string id;       ///< operationId; "" keeps it out of the OpenAPI document
     std::string summary;
+    std::string description;  ///< what the summary leaves out, in sentences; "" for nothing
     std::vector<Param> query;
     std::vector<HeaderField> headers;
     std::string body_schema;  ///< component that the JSON body must match; "" for no JSON body
@@ -44,6 +47,7 @@ struct Route {
     /// something: their preconditions are compared with it.
     std::function<std::string(const Request&)> etag;
     int wrong_query_status = 400;  ///< status of the answer to a query with wrong, missing or unknown fields
+    std::string tag;               ///< its group in the OpenAPI document
 };
 
 struct Match {

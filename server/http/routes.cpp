@@ -2,20 +2,49 @@
 
 namespace sheer::http {
 
+namespace {
+
+struct Topic {
+    Tag tag;
+    std::vector<Route> (*routes)(Service& service);
+};
+
+std::vector<Topic> all_topics() {
+    return {
+        {{"Submit", "Check specs, and queue comparisons"}, submit_routes},
+        {{"Report", "One report, in the forms that programs and people read"}, report_routes},
+        {{"Diff", "Two reports compared with each other"}, diff_routes},
+        {{"Pixel", "One pixel of a report"}, pixel_routes},
+        {{"Archive", "The list of reports, and their pictures"}, archive_routes},
+        {{"Assets", "Uploaded textures, models and volumes"}, asset_routes},
+        {{"Baselines", "Accepted reports, with which others are compared"}, baseline_routes},
+        {{"Catalog", "What this service offers: methods, scenes, metrics, ready-made specs, devices"}, catalog_routes},
+        {{"Health", "For probes"}, health_routes}};
+}
+
+}  // namespace
+
 Router make_router(Service& service) {
     Router router;
-    for (auto* routes : {submit_routes, report_routes, diff_routes, pixel_routes, archive_routes, asset_routes,
-                         baseline_routes, catalog_routes, health_routes})
-        router.add(routes(service));
+    std::vector<Tag> tags;
+    for (const Topic& topic : all_topics()) {
+        std::vector<Route> routes = topic.routes(service);
+        for (Route& route : routes) route.tag = topic.tag.name;
+        router.add(std::move(routes));
+        tags.push_back(topic.tag);
+    }
     Route openapi{.method = "GET",
                   .pattern = "/api/v1/openapi.json",
                   .id = "getOpenapi",
                   .summary = "This document",
+                  .description = "It is made from the table that answers the requests. `/api.html` shows it.",
                   .replies = {{200, "The document", "application/json", "OpenapiDocument"}},
-                  .handle = {}};
+                  .handle = {},
+                  .tag = "Catalog"};
     std::vector<Route> documented = router.routes();
     documented.push_back(openapi);
-    openapi.handle = [response = json_response(200, openapi_document(documented))](const Request&) { return response; };
+    openapi.handle = [response = json_response(200, openapi_document(documented, tags, service.path_prefix))](
+                         const Request&) { return response; };
     router.add({std::move(openapi)});
     router.add(page_routes());
     return router;

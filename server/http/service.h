@@ -35,6 +35,8 @@ struct Service {
     /// What a compiler says of the user's own shading, "" for nothing; see children/shading_check.h. Null: shadings
     /// are compiled only when they are rendered.
     std::function<std::string(const std::string& glsl)> check_shading = {};
+    /// See path_prefix.h.
+    std::string path_prefix = {};
 };
 
 /// Throws Problem (403) for `what`, such as "An upload", if it needs a sandbox and there is none.
@@ -58,7 +60,13 @@ Router make_router(Service& service);
 /// The schema of what PUT /baselines/{name} takes.
 nlohmann::json acceptance_schema();
 
-/// The OpenAPI 3.1 document of `routes`.
-nlohmann::json openapi_document(const std::vector<Route>& routes);
+/// A group of calls in the OpenAPI document.
+struct Tag {
+    std::string name, description;
+};
+
+/// The OpenAPI 3.1 document of `routes`, which are served below `path_prefix`.
+nlohmann::json openapi_document(const std::vector<Route>& routes, const std::vector<Tag>& tags,
+                                const std::string& path_prefix);
 
 }  // namespace sheer::http

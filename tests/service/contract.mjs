@@ -25,8 +25,10 @@ const is_json = (type) => /^application\/(.+\+)?json$/.test(media_type_of(type))
 export class Contract {
   constructor(document) {
     this.document = document;
+    this.prefix = document.servers[0].url.replace(/\/$/, "");
     this.ajv = new_ajv();
-    for (const keyword of ["openapi", "info", "paths", "components", "x-event-data"]) this.ajv.addKeyword(keyword);
+    for (const keyword of ["openapi", "info", "servers", "security", "tags", "paths", "components"])
+      this.ajv.addKeyword(keyword);
     this.ajv.addSchema(document, "api");
     this.paths = Object.keys(document.paths)
       .sort((a, b) => Number(a.includes("{")) - Number(b.includes("{")))
@@ -41,7 +43,8 @@ export class Contract {
   }
 
   operation(method, path) {
-    const found = this.paths.find(([pattern]) => pattern.test(path));
+    const below = path.startsWith(`${this.prefix}/`) ? path.slice(this.prefix.length) : path;
+    const found = this.paths.find(([pattern]) => pattern.test(below));
     return found && this.document.paths[found[1]][method.toLowerCase()];
   }
 

@@ -57,8 +57,8 @@ test("every reference leads to a schema, and every JSON answer to a component", 
   const references = [...values_of(contract.document)].filter(({ pointer }) => pointer.endsWith("/$ref"));
   assert.ok(references.length > 100);
   for (const { pointer, value } of references) {
-    const [, name] = /^#\/components\/schemas\/(\w+)$/.exec(value) ?? [];
-    assert.ok(components.schemas[name], `${pointer}: ${value}`);
+    const [, kind, name] = /^#\/components\/(\w+)\/([\w-]+)$/.exec(value) ?? [];
+    assert.ok(components[kind]?.[name], `${pointer}: ${value}`);
   }
   for (const name of Object.keys(components.schemas)) contract.component(name);
   for (const [path, operations] of Object.entries(paths))

@@ -105,7 +105,7 @@ export class Service {
     const line = () => /^Sheer listens on (http:\/\/\S+)\n/.exec(output);
     await until(() => line() || this.process.exitCode !== null, "the service listens");
     assert.ok(line(), `the service ended: ${this.log}`);
-    this.origin = line()[1];
+    this.origin = new URL(line()[1]).origin;
     this.api = `${this.origin}/api/v1`;
     await hold_to_contract(this.origin, this.program);
     return this;

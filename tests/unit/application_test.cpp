@@ -273,6 +273,62 @@ TEST(GuardTest, BeyondLoopbackAnyNameIsAllowedUnlessSomeAreListed) {
     EXPECT_TRUE(make_guard(false, {"other.example"}).refusal(request));
 }
 
+TEST_F(ApplicationTest, PagesOfConfiguredOriginsMayAskAndRead) {
+    m_application.emplace(make_guard(true, {}, {"https://ci.example"}), make_router(m_service));
+    const auto from = [](const char* origin) { return std::pair<std::string, std::string>{"Origin", origin}; };
+    const std::pair<std::string, std::string> cross{"Sec-Fetch-Site", "cross-site"};
+    const Response preflight = std::get<Response>(ask(
+        "OPTIONS", "/api/v1/reports", {from("https://ci.example"), cross, {"Access-Control-Request-Method", "POST"}}));
+    EXPECT_EQ(preflight.status, 204);
+    EXPECT_EQ(preflight.headers.find("Access-Control-Allow-Origin"), "https://ci.example");
+    EXPECT_EQ(preflight.headers.find("Access-Control-Allow-Methods"), "POST, GET, HEAD, OPTIONS");
+    EXPECT_NE(preflight.headers.find("Access-Control-Allow-Headers")->find("Idempotency-Key"), std::string::npos);
+    const Response posted = post(m_spec, {from("https://ci.example"), cross});
+    EXPECT_EQ(posted.status, 202);
+    EXPECT_EQ(posted.headers.find("Access-Control-Allow-Origin"), "https://ci.example");
+    EXPECT_NE(posted.headers.find("Access-Control-Expose-Headers")->find("Retry-After"), std::string::npos);
+    EXPECT_EQ(post(m_spec, {from("https://other.example"), cross}).status, 403);
+    const Response other = get("/api/v1/methods", {from("https://other.example")});
+    EXPECT_FALSE(other.headers.contains("Access-Control-Allow-Origin"));
+    EXPECT_NE(other.headers.joined("Vary")->find("Origin"), std::string::npos);
+}
+
+TEST(GuardTest, AnOriginHasNoPath) {
+    EXPECT_EQ(wrong_origin("https://ci.example"), "");
+    EXPECT_EQ(wrong_origin("http://127.0.0.1:3000"), "");
+    for (const char* wrong : {"*", "", "ci.example", "https://ci.example/", "ftp://ci.example", "https://a@ci.example"})
+        EXPECT_NE(wrong_origin(wrong), "") << wrong;
+}
+
+TEST_F(ApplicationTest, AnswersOnlyInFormsThatAreAccepted) {
+    const Response refused = post(m_spec, {{"Accept", "text/html"}});
+    EXPECT_EQ(refused.status, 406);
+    EXPECT_EQ(refused.headers.find("Content-Type"), "application/problem+json");
+    EXPECT_EQ(stored(), 0u);
+    EXPECT_EQ(get("/api/v1/methods", {{"Accept", "application/json;q=0"}}).status, 406);
+    EXPECT_EQ(get("/api/v1/methods", {{"Accept", "text/html, */*;q=0.1"}}).status, 200);
+    EXPECT_EQ(get("/", {{"Accept", "application/json"}}).status, 200);
+}
+
+TEST_F(ApplicationTest, CompressedBodiesAreRefused) {
+    const Response refused = post(m_spec, {{"Content-Encoding", "gzip"}});
+    EXPECT_EQ(refused.status, 415);
+    EXPECT_EQ(refused.headers.find("Accept-Encoding"), "identity");
+    EXPECT_EQ(stored(), 0u);
+    EXPECT_EQ(post(m_spec, {{"Content-Encoding", "identity"}}).status, 202);
+}
+
+TEST_F(ApplicationTest, AClientThatHasTheCompressedFormGetsA304) {
+    const Response packed = get("/api/v1/methods", {{"Accept-Encoding", "gzip"}});
+    const std::string etag = packed.headers.find("ETag").value_or("");
+    EXPECT_TRUE(etag.ends_with("-gzip\"")) << etag;
+    for (const char* coding : {"gzip", "identity"}) {
+        const Response known = get("/api/v1/methods", {{"Accept-Encoding", coding}, {"If-None-Match", etag}});
+        EXPECT_EQ(known.status, 304) << coding;
+        EXPECT_EQ(std::get<std::string>(known.body), "");
+    }
+}
+
 TEST_F(ApplicationTest, UnknownMethodsGetTheAllowedOnes) {
     const Response options = std::get<Response>(ask("OPTIONS", "/api/v1/reports"));
     EXPECT_EQ(options.status, 204);
