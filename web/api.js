@@ -1,6 +1,7 @@
 // The service's REST interface.
 
-const ROOT = "/api/v1";
+// Relative, so that the page works below any path at which a proxy offers it.
+const ROOT = "api/v1";
 
 /** An unsuccessful answer. `errors`: [{pointer, detail}] of a wrong spec. */
 export class ApiError extends Error {

@@ -56,7 +56,7 @@ function shell_word(text) {
 }
 
 function curl_command(spec) {
-  const url = `${location.origin}/api/v1/reports`;
+  const url = new URL("api/v1/reports", document.baseURI).href;
   return `curl -i -H 'Content-Type: application/json' -d ${shell_word(JSON.stringify(spec))} ${url}`;
 }
 

@@ -194,7 +194,7 @@ export class SpecForm {
           "aria-pressed": String(scene === chosen),
           onclick: () => this.#choose_scene(scene.id),
         },
-        el("img", { src: `/thumbnails/${scene.id}.png`, alt: "", width: 96, height: 96 }),
+        el("img", { src: `thumbnails/${scene.id}.png`, alt: "", width: 96, height: 96 }),
         el("span", {}, scene.name),
       );
     return el("div", { class: "scene-pictures", role: "group", "aria-label": "Scenes" }, ...this.#scenes.map(button));

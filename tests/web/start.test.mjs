@@ -33,6 +33,26 @@ page_test("every ready comparison has a picture, says what it teaches, and can b
   );
 });
 
+page_test("the page of the API shows every call, its schemas, and examples", {}, async (page) => {
+  await page.goto(tests.url());
+  await page.getByRole("link", { name: "API" }).click();
+  const call = page.locator("details#acceptReport");
+  await call.waitFor();
+  const document = await api("/openapi.json");
+  const calls = Object.values(document.paths).flatMap(Object.values);
+  assert.equal(await page.locator("details.api-item:not([id^=schema-])").count(), calls.length);
+  await call.locator("summary").first().click();
+  await assert_accessible(page, "the page of the API");
+  assert.match(
+    await call.locator("pre").last().textContent(),
+    /^curl -X PUT --json @body.json 'http.*baselines\/main'/,
+  );
+  await call.getByRole("link", { name: "Acceptance" }).click();
+  const schema = page.locator("#schema-Acceptance pre");
+  await schema.waitFor();
+  assert.deepEqual(JSON.parse(await schema.textContent()), document.components.schemas.Acceptance);
+});
+
 page_test("edits are not replaced without consent", {}, async (page) => {
   await page.goto(`${tests.url()}/#/new`);
   const title = page.locator(`${field("/title")} input`);
