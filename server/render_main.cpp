@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
     CLI::App app{"Sheer compares transparency methods: images, timings and differences of a scene, as a report.",
                  "sheer"};
     app.require_subcommand(1);
+    app.footer("sheer COMMAND --help says more. Example: sheer compare spec.json --out out");
     int exit_code = sheer::exit_ok;
     sheer::cli::add_rendering_commands(app, exit_code);
     sheer::cli::add_service_commands(app, exit_code);

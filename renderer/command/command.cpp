@@ -8,11 +8,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 
+#include "renderer/command/wrong_words.h"
 #include "renderer/core/errors.h"
 #include "renderer/core/names.h"
 #include "renderer/spec/suites.h"
@@ -34,7 +38,10 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 void log_to_stderr(const std::string& program) {
-    spdlog::set_default_logger(spdlog::stderr_color_mt(program));
+    const char* const no_color = std::getenv("NO_COLOR");
+    const bool is_plain = no_color != nullptr && *no_color != '\0';
+    spdlog::set_default_logger(
+        spdlog::stderr_color_mt(program, is_plain ? spdlog::color_mode::never : spdlog::color_mode::automatic));
     spdlog::set_level(spdlog::level::warn);
     spdlog::cfg::load_env_levels();
 }
@@ -45,8 +52,13 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code,
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (app.exit(error) == 0) return exit_ok;
-        if (on_wrong) on_wrong(error.what());
+        if (error.get_exit_code() == 0) {
+            app.exit(error);
+            return exit_ok;
+        }
+        const std::string wrong = what_is_wrong(app, error);
+        fmt::print(stderr, "{}\n", wrong);
+        if (on_wrong) on_wrong(wrong);
         return exit_bad_spec;
     }
     return exit_code;
@@ -67,6 +79,9 @@ int exit_code_of(const report::Report& report) {
 int guarded(const std::function<int()>& action) {
     try {
         return action();
+    } catch (const WrongFile& error) {
+        fmt::print(stderr, "{} is wrong:\n{}\n", error.path(), error.what());
+        return exit_bad_spec;
     } catch (const SpecError& error) {
         fmt::print(stderr, "{}\n", error.what());
         return exit_bad_spec;
@@ -86,7 +101,8 @@ void add_device_options(CLI::App& command, gl::ContextRequest& request) {
 }
 
 void add_source_options(CLI::App& command, Source& source) {
-    CLI::Option* spec = command.add_option("spec", source.spec, "The spec, a JSON file (see configs/specs)");
+    CLI::Option* spec =
+        command.add_option("spec", source.spec, "The spec, a JSON file (see configs/specs); - is standard input");
     CLI::Option* suite =
         command.add_option("--suite", source.suite, "Repeat a published measurement instead: see sheer suites");
     command.add_option("--scale", source.scale, "Factor for width and height of a suite's picture")
@@ -121,11 +137,19 @@ Spec read_spec(const Source& source) {
 }
 
 Spec load_spec(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read the spec " + path}});
-    return parse_spec_text(text.str());
+    if (path == "-") {
+        text << std::cin.rdbuf();
+    } else {
+        std::ifstream file(path, std::ios::binary);
+        text << file.rdbuf();
+        if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read the spec " + path}});
+    }
+    try {
+        return parse_spec_text(text.str());
+    } catch (const SpecError& wrong) {
+        throw WrongFile(path == "-" ? "standard input" : path, wrong);
+    }
 }
 
 std::string rerun_command(const std::string& command, const Source& source, const gl::ContextRequest& request) {
@@ -155,11 +179,22 @@ void ProgressLine::show(double fraction, const std::string& stage) {
     }
 }
 
+std::string time_left(double elapsed_s, double fraction) {
+    // Earlier it would be a guess from how long the driver took to start.
+    if (elapsed_s < 3 || fraction < 0.03 || fraction >= 1) return "";
+    const double left_s = elapsed_s * (1 - fraction) / fraction;
+    if (left_s < 60) return fmt::format("{:.0f} s left, ", std::ceil(left_s));
+    if (left_s < 3600) return fmt::format("{:.0f} min left, ", std::ceil(left_s / 60));
+    return fmt::format("{:.1f} h left, ", left_s / 3600);
+}
+
 void ProgressLine::show_bar(double fraction, const std::string& stage) {
     if (std::chrono::steady_clock::now() - m_begin < std::chrono::seconds(1)) return;
     constexpr int width = 30;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - m_begin;
     const int filled = static_cast<int>(fraction * width);
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100 * fraction, stage);
+    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}{}", "", filled, "", width - filled, 100 * fraction,
+               time_left(elapsed.count(), fraction), stage);
     std::fflush(stderr);
     m_shown = true;
 }

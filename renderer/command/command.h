@@ -29,6 +29,16 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A SpecError of a file, or of standard input.
+class WrongFile : public SpecError {
+  public:
+    WrongFile(std::string path, const SpecError& wrong) : SpecError(wrong), m_path(std::move(path)) {}
+    const std::string& path() const { return m_path; }
+
+  private:
+    std::string m_path;
+};
+
 /// For a report: exit_check_failed if a check failed, otherwise exit_render_failed if a method or the reference failed.
 int exit_code_of(const report::Report& report);
 
@@ -56,8 +66,11 @@ Spec load_spec(const std::string& path);
 /// The shell command that repeats a comparison: `command` and its source.
 std::string rerun_command(const std::string& command, const Source& source, const gl::ContextRequest& request);
 
-/// Shows the progress of a comparison on stderr: on a terminal as a bar, after the first second; in a log as a line for
-/// each stage of each point, not for each round or method.
+/// How long the rest will take if it goes on like this, with a comma after it; "" while that cannot be said.
+std::string time_left(double elapsed_s, double fraction);
+
+/// Shows the progress of a comparison on stderr: on a terminal as a bar, after the first second, with the time left; in
+/// a log as a line for each stage of each point, not for each round or method.
 class ProgressLine {
   public:
     explicit ProgressLine(bool is_terminal = stderr_is_terminal());

@@ -78,6 +78,7 @@ void forget_baseline(const BaselineArguments& options) {
 void add_baseline(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("baseline", "The reports that others are compared with");
     command->require_subcommand(1);
+    command->footer("Example: sheer baseline list");
     // Each has arguments of its own, as the environment is read for all of them, chosen or not.
     const auto add = [&](const std::string& name, const std::string& what, void (*run)(const BaselineArguments&)) {
         CLI::App* one = command->add_subcommand(name, what);
@@ -98,14 +99,17 @@ void add_baseline(CLI::App& app, int& exit_code) {
     };
     const auto [listing, listed] = add("list", "List the accepted reports", list_baselines);
     listing->add_option("name", listed->name, "Only this baseline");
+    listing->footer("Example: sheer baseline list main --server http://renderer:8080");
     listing->add_flag("--json", listed->as_json, "Print JSON");
     const auto [accepting, accepted] = add("accept", "Accept a done report", accept_report);
     accepting->add_option("name", accepted->name, "Name of the baseline, such as main")->required();
     accepting->add_option("report", accepted->report, "Id of the report")->required();
     accepting->add_option("--by", accepted->by, "Who accepts it; by default $USER")->envname("USER");
+    accepting->footer("Example: sheer baseline accept main 01a2b3c4-0000-7000-8000-000000000001 --reason merged");
     accepting->add_option("--reason", accepted->reason, "Why");
     const auto [forgetting, forgotten] = add("forget", "Forget a baseline, or one report of it", forget_baseline);
     forgetting->add_option("name", forgotten->name, "Name of the baseline")->required();
+    forgetting->footer("Example: sheer baseline forget main");
     forgetting->add_option("report", forgotten->report, "Only this report");
 }
 

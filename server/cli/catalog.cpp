@@ -55,15 +55,18 @@ std::string metric_entry(const json& metric) {
 }  // namespace
 
 void add_catalog(CLI::App& app, int& exit_code) {
-    add_list(app, exit_code, "methods", "The methods and their parameters", describe_methods, [](const json& info) {
-        return entry(info, {{"paper", "paper"}, {"good at", "good_at"}, {"bad at", "bad_at"}, {"memory", "memory"}}) +
-               "\n";
-    });
-    add_list(app, exit_code, "scenes", "The scenes and their parameters", describe_scenes, [](const json& info) {
-        return entry(info, {{"source", "source"}}) + "\n";
-    });
-    add_list(app, exit_code, "metrics", "The metrics and their values", describe_metrics, metric_entry);
-    add_list(app, exit_code, "suites", "Published measurements that can be repeated", describe_suites,
+    add_list(
+        app, exit_code, "methods", "The methods and their parameters", "f2bd", describe_methods, [](const json& info) {
+            return entry(info,
+                         {{"paper", "paper"}, {"good at", "good_at"}, {"bad at", "bad_at"}, {"memory", "memory"}}) +
+                   "\n";
+        });
+    add_list(app, exit_code, "scenes", "The scenes and their parameters", "quads", describe_scenes,
+             [](const json& info) {
+                 return entry(info, {{"source", "source"}}) + "\n";
+             });
+    add_list(app, exit_code, "metrics", "The metrics and their values", "flip", describe_metrics, metric_entry);
+    add_list(app, exit_code, "suites", "Published measurements that can be repeated", "--json", describe_suites,
              [](const json& suite) {
                  return fmt::format("{:<15} {} ({})\n", suite["id"].get<std::string>(),
                                     suite["title"].get<std::string>(), suite["source"].get<std::string>());

@@ -62,7 +62,7 @@ std::string note_sandbox(const SandboxSettings& settings) {
 
 void serve(const ServeOptions& options) {
     // Standard output is for programs; the log is for people.
-    spdlog::set_default_logger(spdlog::stderr_color_mt("serve"));
+    log_to_stderr("serve");
     const ServiceConfig config = config_of(options);
     spdlog::set_level(spdlog::level::from_str(config.log_level));
     const http::Endpoint endpoint = http::parse_endpoint(config.listen);
@@ -123,10 +123,14 @@ void add_serve(CLI::App& app, int& exit_code) {
         "--workers", [options](int value) { options->overrides["workers"] = value; },
         fmt::format("Worker processes, {} if not given", defaults.workers));
     command->add_option("--config", options->config, "JSON file with any of the settings");
+    command->footer("Example: sheer serve --listen 127.0.0.1:8080 --data sheer-data");
     command->callback([options, &exit_code] {
         try {
             serve(*options);
             exit_code = exit_ok;
+        } catch (const WrongFile& error) {
+            fmt::print(stderr, "sheer serve: {} is wrong:\n{}\n", error.path(), error.what());
+            exit_code = exit_bad_spec;
         } catch (const std::exception& error) {
             fmt::print(stderr, "sheer serve: {}\n", error.what());
             exit_code = exit_bad_spec;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <type_traits>
 
+#include "renderer/command/command.h"
 #include "server/http/guard.h"
 #include "server/http/path_prefix.h"
 
@@ -264,14 +265,26 @@ ServiceConfig read_service_config(const json& document) {
     return config;
 }
 
-ServiceConfig load_service_config(const std::filesystem::path& path, const json& overrides) {
-    if (path.empty()) return read_service_config(overrides);
+namespace {
+
+ServiceConfig read_service_file(const std::filesystem::path& path, const json& overrides) {
     std::ifstream file(path);
     if (!file) throw SpecError(std::vector<FieldError>{{"", "cannot read " + path.string()}});
     json document = json::parse(file, nullptr, false, true);
     if (document.is_discarded()) throw SpecError(std::vector<FieldError>{{"", path.string() + " is not JSON"}});
     if (document.is_object()) document.update(overrides);
     return read_service_config(document);
+}
+
+}  // namespace
+
+ServiceConfig load_service_config(const std::filesystem::path& path, const json& overrides) {
+    if (path.empty()) return read_service_config(overrides);
+    try {
+        return read_service_file(path, overrides);
+    } catch (const SpecError& wrong) {
+        throw WrongFile(path.string(), wrong);
+    }
 }
 
 }  // namespace sheer::cli

@@ -24,7 +24,7 @@ struct WorkerArguments {
 
 void work(const WorkerArguments& arguments) {
     StopSignal stop;
-    spdlog::set_default_logger(spdlog::stderr_color_mt("worker"));
+    log_to_stderr("worker");
     // Workers keep the level with which they started until the service is restarted.
     std::signal(SIGHUP, SIG_IGN);
     const ServiceConfig config = load_service_config(arguments.config);

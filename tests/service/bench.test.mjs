@@ -78,7 +78,7 @@ test("errors are reported, and leave no file", () =>
   with_folder({ ...SPEC, methods: ["b3f"] }, (folder, spec) => {
     const out = join(folder, "bench.json");
     for (const [words, status, message] of [
-      [[spec], 2, /^\/methods\/0: /],
+      [[spec], 2, /^\/methods\/0: /m],
       [[], 2, /give either a SPEC\.json or a --suite/],
       [["--suite", "paper-table-8"], 2, /there is no suite "paper-table-8"; known are paper-table-1, /],
       [["--suite", "paper-table-7", "--scale", "2"], 2, /--scale/],

@@ -7,10 +7,12 @@ namespace sheer::cli {
 
 // Each adds its subcommand to `app`; if it is chosen, it runs and stores the exit code.
 void add_compare(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
 void add_diff(CLI::App& app, int& exit_code);
 void add_docs(CLI::App& app, int& exit_code);     ///< for ./dev docs; not shown in the help
 void add_gallery(CLI::App& app, int& exit_code);  ///< hidden: see ./dev gallery
+void add_manual(CLI::App& app, int& exit_code);   ///< for packages; not shown in the help
 void add_pixel(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);
 

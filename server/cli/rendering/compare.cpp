@@ -187,6 +187,7 @@ void add_compare(CLI::App& app, int& exit_code) {
     command->add_option("--out", options->out, "Folder for report.json, report.html and the pictures");
     add_output_options(*command, options->outputs);
     add_context_options(*command, options->context);
+    command->footer("Example: sheer compare configs/specs/quick.json --out out --junit junit.xml");
     command->callback([options, &exit_code] { exit_code = guarded([&] { return Comparison(*options).run(); }); });
 }
 

@@ -33,7 +33,7 @@ std::string device_line(const json& device) {
 }  // namespace
 
 void add_devices(CLI::App& app, int& exit_code) {
-    add_list(app, exit_code, "devices", "The devices that can render here", describe_devices, device_line);
+    add_list(app, exit_code, "devices", "The devices that can render here", "--json", describe_devices, device_line);
 }
 
 }  // namespace sheer::cli

@@ -129,6 +129,7 @@ void add_diff(CLI::App& app, int& exit_code) {
                      "How many times as long a method may take, such as 1.2")
         ->check(CLI::Range(1.0, 1000.0));
     command->add_flag("--json", options->as_json, "Print JSON instead of a table");
+    command->footer("Example: sheer diff before/report.json after/report.json --max-flip 0.01 --max-slowdown 1.2");
     command->callback([options, &exit_code] { exit_code = guarded([&] { return run_diff(*options); }); });
 }
 

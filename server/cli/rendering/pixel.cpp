@@ -219,6 +219,7 @@ void add_pixel(CLI::App& app, int& exit_code) {
         ->group("");
     add_context_options(*command, options->context);
     options->sandbox.add_to(*command);
+    command->footer("Example: sheer pixel out --x 200 --y 120");
     command->callback([options, &exit_code] {
         exit_code = options->as_json ? print_json(*options) : guarded([&] { return print_pixel(*options); });
     });

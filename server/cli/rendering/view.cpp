@@ -37,6 +37,7 @@ void add_view(CLI::App& app, int& exit_code) {
     command->add_option("--without-workaround", options->context.disabled_workarounds,
                         "Name of a driver workaround to switch off");
     command->footer(std::string("Keys:\n") + view::keys_text);
+    command->footer("Example: sheer view configs/specs/foliage.json");
     command->callback([options, &exit_code] { exit_code = guarded([&] { return run_view(*options); }); });
 }
 
