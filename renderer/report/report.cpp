@@ -15,6 +15,7 @@
 #include "renderer/image/magma.h"
 #include "renderer/report/frontier.h"
 #include "renderer/report/provenance.h"
+#include "renderer/report/qualification.h"
 #include "renderer/report/suite.h"
 #include "renderer/report/timing.h"
 #include "renderer/results/quantity.h"
@@ -408,6 +409,7 @@ Report ReportMaker::finish() {
     report::Load& load = m_report.provenance.load;
     load.end = load_average();
     if (!load.start || !load.end) load.reason = "/proc/loadavg does not say";
+    if (m_report.device) m_report.qualification = last_qualification(qualifications_file(), *m_report.device);
     m_report.finished_at = utc_now();
     return std::move(m_report);
 }

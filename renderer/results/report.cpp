@@ -231,6 +231,36 @@ const Description<report::Provenance>& description_of() {
 }
 
 template <>
+const Description<report::QualifiedSlowdown>& description_of() {
+    using report::QualifiedSlowdown;
+    static const auto description =
+        Description<QualifiedSlowdown>("QualifiedSlowdown", "how often a slowdown of a known size was found")
+            .member(&QualifiedSlowdown::more_work, "more_work", "share of iterations that the shading does more")
+            .member(&QualifiedSlowdown::slowdown, "slowdown", "median of its time over that of the original")
+            .member(&QualifiedSlowdown::found, "found", "share of the comparisons whose verdict was slower")
+            .member(&QualifiedSlowdown::comparisons, "comparisons", "");
+    return description;
+}
+
+template <>
+const Description<report::Qualification>& description_of() {
+    using report::Qualification;
+    static const auto description =
+        Description<Qualification>("Qualification", "how far verdicts on times can be trusted on a device")
+            .member(&Qualification::at, "at", "UTC, RFC 3339")
+            .member(&Qualification::renderer, "renderer", "GL_RENDERER")
+            .member(&Qualification::cpu, "cpu", "model name of the processor")
+            .member(&Qualification::comparisons, "comparisons", "of a shading with itself")
+            .member(&Qualification::false_changes, "false_changes", "how many of them were called faster or slower")
+            .member(&Qualification::false_change_rate, "false_change_rate", "their share")
+            .member(&Qualification::false_change_ci95, "false_change_ci95", "its Wilson interval")
+            .member(&Qualification::slowdowns, "slowdowns", "the smallest first")
+            .member(&Qualification::found_from, "found_from",
+                    "the slowdown from which on at least 95 % were found; null if the largest was not");
+    return description;
+}
+
+template <>
 const Description<report::Points>& description_of() {
     static const auto description = Description<report::Points>("Points", "number of points of the sweep")
                                         .member(&report::Points::asked, "asked", "")
@@ -339,6 +369,8 @@ const Description<report::Report>& description_of() {
             .member(&report::Report::device, "device", "")
             .member(&report::Report::color_space, "color_space", "")
             .member(&report::Report::provenance, "provenance", "")
+            .member(&report::Report::qualification, "qualification",
+                    "the device's last qualification before this report; null if there was none: `sheer qualify`")
             .member(&report::Report::runs, "runs", "one for each point of the sweep")
             .maybe(&report::Report::suite, "suite", "absent if the spec names no suite")
             .maybe(&report::Report::against, "against", "absent if the spec names nothing to compare with")

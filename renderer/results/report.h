@@ -223,6 +223,22 @@ struct Provenance {
     OrReason<std::string> governor;
 };
 
+/// How often a slowdown of a known size was found.
+struct QualifiedSlowdown {
+    double more_work = 0, slowdown = 1, found = 0;
+    int comparisons = 0;
+};
+
+/// See renderer/report/qualification.h.
+struct Qualification {
+    std::string at, renderer, cpu;
+    int comparisons = 0, false_changes = 0;
+    double false_change_rate = 0;
+    Interval false_change_ci95{0, 1};
+    std::vector<QualifiedSlowdown> slowdowns;
+    std::optional<double> found_from;
+};
+
 struct Points {
     std::size_t asked = 0, done = 0;
 };
@@ -278,6 +294,7 @@ struct Report : Head {
     std::optional<Device> device;
     ColorSpace color_space;
     Provenance provenance;
+    std::optional<Qualification> qualification;
     std::vector<Run> runs;
     std::optional<Suite> suite;
     std::optional<Against> against;
@@ -400,6 +417,10 @@ template <>
 const Description<report::Provenance>& description_of();
 template <>
 const Description<report::Points>& description_of();
+template <>
+const Description<report::QualifiedSlowdown>& description_of();
+template <>
+const Description<report::Qualification>& description_of();
 template <>
 const Description<report::Figure>& description_of();
 template <>

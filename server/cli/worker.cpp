@@ -5,6 +5,8 @@
 #include <spdlog/spdlog.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 #include "server/archive/data_folder.h"
@@ -33,6 +35,8 @@ void work(const WorkerArguments& arguments) {
     WorkerOptions options = config.worker;
     options.scratch = DataFolder{arguments.data}.scratch();
     options.data = arguments.data;
+    // Renderers look there for the qualification of their device.
+    setenv("SHEER_STATE", std::filesystem::absolute(arguments.data).c_str(), 1);
     options.name = arguments.name;
     Worker(store, std::move(options), system_now_ms).run(stop);
 }

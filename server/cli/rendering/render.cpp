@@ -12,6 +12,7 @@
 #include "renderer/params/json_text.h"
 #include "renderer/passes/pass.h"
 #include "renderer/pictures/blob_sink.h"
+#include "renderer/report/qualification.h"
 #include "renderer/report/report.h"
 #include "server/cli/rendering/commands.h"
 #include "server/cli/rendering/failure.h"
@@ -53,6 +54,8 @@ int probe(gl::Context& context) {
 std::unique_ptr<gl::Context> open_confined(const RenderArguments& options) {
     OpenFiles files = stored_files(options.data);
     if (!options.spec.empty()) files.read.emplace_back(options.spec);
+    if (const auto qualifications = qualifications_file(); !qualifications.empty())
+        files.read.push_back(qualifications);
     if (!options.out.empty()) {
         std::filesystem::create_directories(options.out);
         files.write.emplace_back(options.out);
