@@ -80,6 +80,24 @@ export async function get_spec_file(url) {
   return response.blob();
 }
 
+/** Every baseline: [{name, reports}]. */
+export async function get_baselines(signal) {
+  return (await call("/baselines", { signal })).body.baselines;
+}
+/** `acceptance`: {report, by, reason}. */
+export async function accept_report(name, acceptance) {
+  await call(`/baselines/${encodeURIComponent(name)}`, {
+    method: "PUT",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(acceptance),
+  });
+}
+/** Forgets one report of a baseline, or all of them without an id. The reports themselves stay. */
+export async function forget_baseline(name, id = null) {
+  const query = id ? `?${new URLSearchParams({ report: id })}` : "";
+  await call(`/baselines/${encodeURIComponent(name)}${query}`, { method: "DELETE" });
+}
+
 /** Published measurements that can be repeated. */
 export async function get_suites() {
   return (await call("/suites")).body;

@@ -1,6 +1,7 @@
 // The page: chooses the view for the address.
 import { split_hash } from "./address.js";
 import { show_archive } from "./archive_view.js";
+import { show_baselines } from "./baselines_view.js";
 import { show_compare } from "./compare_view.js";
 import { show_diff } from "./diff_view.js";
 import { el, set_children } from "./dom.js";
@@ -13,6 +14,7 @@ const ROUTES = [
   [/^#\/new$/, show_compare],
   [/^#\/reports\/?$/, show_archive],
   [/^#\/reports\/([^/]+)$/, show_report],
+  [/^#\/baselines\/?$/, show_baselines],
   [/^#\/diff\/([^/]+)\/([^/]+)$/, show_diff],
 ];
 
@@ -54,7 +56,8 @@ class Page {
   #mark_current(path) {
     for (const link of document.querySelectorAll("header.site nav a")) {
       const of_reports = path.startsWith("#/reports") || path.startsWith("#/diff");
-      const here = of_reports ? "#/reports" : path === "#/new" ? "#/new" : "#/";
+      const own = ["#/new", "#/baselines"].find((one) => path.startsWith(one));
+      const here = of_reports ? "#/reports" : (own ?? "#/");
       if (link.getAttribute("href") === here) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }

@@ -1,5 +1,6 @@
 // What can be done with a report: run it again, change it, copy it elsewhere, delete it.
 import { delete_report, report_path, submit } from "./api.js";
+import { accept_button } from "./baselines_view.js";
 import { el } from "./dom.js";
 import { copy_button, menu } from "./menu.js";
 import { keep_draft, may_replace_draft } from "./spec_model.js";
@@ -78,6 +79,7 @@ export function report_actions(report, link, on_error) {
       file("junit.xml"),
       copy_button("Copy as curl", () => curl_command(report.spec)),
       copy_button("Copy as sheer command", () => sheer_command(report.spec)),
+      report.status === "done" ? accept_button(report) : null,
       delete_button(report, on_error),
     ]),
   ];

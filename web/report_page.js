@@ -1,6 +1,7 @@
 // A report at #/reports/{id}: its progress while it is rendered, then the report itself.
 import { AddressWriter } from "./address.js";
 import { delete_report, follow, get_columns, get_methods, get_metrics, get_pixel, get_report } from "./api.js";
+import { change_panel } from "./baselines_view.js";
 import { el, set_children } from "./dom.js";
 import { when } from "./format.js";
 import { delete_button, edit_button, report_actions, run_again, run_again_button } from "./report_actions.js";
@@ -46,6 +47,7 @@ async function show_settled(main, signal, report, descriptions, { query, on_quer
         ? null
         : message("error", "The descriptions of the columns could not be loaded: reload to see all tables."),
       is_done || report.error ? null : message("info", ended_text(report)),
+      change_panel(report, signal),
       view.element,
     );
     return;

@@ -231,3 +231,55 @@ page_test("what looks change and with which report it was compared is shown", { 
   );
   await assert_accessible(page);
 });
+
+const COLORED = (glsl, more = {}) => ({
+  title: "Colored",
+  image: { width: 48, height: 48 },
+  scene: { type: "quads", count: 4, shading: { glsl } },
+  methods: ["b2f", "f2b"],
+  timing: { rounds: 1 },
+  ...more,
+});
+
+page_test(
+  "a report is accepted, one compared with it opens on what changed, and it is forgotten",
+  { expected_statuses: [422] },
+  async (page) => {
+    const accepted = await finished(COLORED("return tint;"));
+    await open_report(page, accepted);
+    await page.getByLabel("More").click();
+    await page.getByRole("button", { name: "Accept as baseline…" }).click();
+    const dialog = page.getByRole("dialog", { name: "Accept as baseline" });
+    await dialog.getByLabel("Name").fill("a/b");
+    await dialog.getByRole("button", { name: "Accept", exact: true }).click();
+    await dialog.getByText("The name").waitFor();
+    await dialog.getByLabel("Name").fill("web");
+    await dialog.getByLabel("Why").fill("it is right");
+    await dialog.getByRole("button", { name: "Accept", exact: true }).click();
+    const section = page.locator(".baseline[data-name=web]");
+    await section.getByText("it is right").waitFor();
+    await assert_accessible(page, "the baselines");
+
+    const against = { against: "baseline:web", under_test: ["/scene/shading/glsl"] };
+    const same = await finished(COLORED("return tint;", against));
+    await open_report(page, same);
+    const panel = page.getByRole("region", { name: "What changed" });
+    await panel.getByText("No picture changed").waitFor();
+    const changed = await finished(COLORED("return vec4(tint.rgb * 0.5, tint.a);", against));
+    await open_report(page, changed);
+    await panel.getByText(/^b2f: another picture, mean FLIP 0\.\d+/).waitFor();
+    const top = (locator) => locator.evaluate((node) => node.getBoundingClientRect().top);
+    assert.ok((await top(panel)) < (await top(page.locator("article.report"))));
+    assert.match(await panel.textContent(), /In the spec: \/scene\/shading\/glsl/);
+    await assert_accessible(page, "a report compared with a baseline");
+    await panel.getByRole("link").click();
+    await page.locator("h1", { hasText: "Colored" }).or(page.getByText("FLIP mean")).first().waitFor();
+    assert.match(page.url(), /#\/diff\/.*allow=/);
+
+    await page.getByRole("link", { name: "Baselines" }).click();
+    page.once("dialog", (question) => question.accept());
+    await section.getByRole("button", { name: "Forget Colored" }).click();
+    await page.getByText("No report is accepted yet.").waitFor();
+    assert.deepEqual((await api("/baselines")).baselines, []);
+  },
+);
