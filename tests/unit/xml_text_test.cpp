@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <random>
 #include <regex>
 
 #include "renderer/report/report.h"
+#include "temporary_folder.h"
 
 namespace sheer::xml_text_test {
 namespace {
@@ -98,6 +101,19 @@ TEST(Junit, IsXmlForAnyBytes) {
         expect_xml_characters(xml);
         EXPECT_EQ(not_well_formed(xml), "");
     }
+}
+
+TEST(Junit, XmllintAcceptsAThousandRandomTitles) {
+    if (std::system("xmllint --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no xmllint";
+    const test::TemporaryFolder folder;
+    std::mt19937 random(11);
+    for (int i = 0; i < 1000; ++i) {
+        std::string title(1 + random() % 60, '\0');
+        for (char& byte : title) byte = static_cast<char>(random() % 256);
+        std::ofstream(folder.path() / (std::to_string(i) + ".xml")) << report_junit(failed_report(title, title, title));
+    }
+    const std::string command = "find '" + folder.path().string() + "' -name '*.xml' -exec xmllint --noout {} +";
+    EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
 TEST(Junit, EscapesMarkupAndKeepsLines) {
