@@ -5,6 +5,8 @@ set -euo pipefail
 packages=$(realpath "$1")
 root=${SHEER_ROOT:-$(mktemp -d)}
 service=
+# Apt downloads as a user of its own.
+chmod 755 "$root"
 
 clean_up() {
     if [[ $service ]]; then kill "$service" 2>/dev/null || true; fi
@@ -24,15 +26,15 @@ fi
 mount -t proc proc "$root/proc"
 cp "$packages"/*.deb "$root/tmp"
 if [[ -e /etc/resolv.conf ]]; then cp /etc/resolv.conf "$root/etc/resolv.conf"; fi
-inside apt-get -qq update
+inside apt-get -qq update >/dev/null
 
 # What the packages need comes first, so that only they differ below.
 needed=$(for deb in "$packages"/*.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed 's/(.*//; s/|.*//; s/ //g' | sort -u)
 # shellcheck disable=SC2086  # a list of words
-inside env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $needed >/dev/null
+inside env DEBIAN_FRONTEND=noninteractive apt-get -qq -y -o Dpkg::Use-Pty=0 --no-install-recommends install $needed >/dev/null
 files_of >"$root/tmp/before"
 
-inside sh -c 'DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install /tmp/sheer_*.deb /tmp/sheer-bench_*.deb' >/dev/null
+inside sh -c 'DEBIAN_FRONTEND=noninteractive apt-get -qq -y -o Dpkg::Use-Pty=0 --no-install-recommends install /tmp/sheer_*.deb /tmp/sheer-bench_*.deb' >/dev/null
 # shellcheck disable=SC2016  # dpkg-query expands it
 echo "installed: $(inside dpkg-query -W -f '${Package} ${Version}, ${Installed-Size} KiB; ' sheer sheer-bench)"
 inside test -s /usr/share/man/man1/sheer.1.gz
@@ -59,7 +61,7 @@ kill "$service" && wait "$service"
 service=
 echo "the service rendered a report"
 
-inside apt-get -qq -y purge sheer sheer-bench >/dev/null
+inside apt-get -qq -y -o Dpkg::Use-Pty=0 purge sheer sheer-bench >/dev/null
 files_of >"$root/tmp/after"
 left=$(diff "$root/tmp/before" "$root/tmp/after" | sed -n 's/^> //p' | grep -v '^./var/lib/sheer' || true)
 [[ ! $left ]] || { echo "left after removal: $left" >&2 && exit 1; }
