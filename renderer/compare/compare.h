@@ -50,7 +50,7 @@ struct MethodResult {
     Image image;
     std::vector<gl::FrameSample> samples;  ///< every timed frame, in the order of the rounds
     ClockLog clock;
-    bool sorts = false;                    ///< it draws in depth order
+    bool sorts = false;  ///< it draws in depth order
     std::vector<double>
         sort_ms;  ///< wall time of sorting for each of these frames (DepthSort); empty if there was none
     std::optional<Metrics> metrics;  ///< absent if the method has none

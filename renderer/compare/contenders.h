@@ -72,7 +72,7 @@ class Contenders {
     Workbench& m_bench;
     Run& m_run;
     std::unique_ptr<GpuClock> m_clock;  ///< null if nothing tells it
-    std::optional<DepthSort> m_sort;  ///< if a method sorts
+    std::optional<DepthSort> m_sort;    ///< if a method sorts
     std::vector<Contender> m_all;
 };
 

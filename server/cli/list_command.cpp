@@ -41,7 +41,8 @@ json chosen(const json& all, const std::vector<std::string>& ids, const std::str
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code, const std::string& name, const std::string& summary,
-              const std::string& example, std::function<json()> describe, std::function<std::string(const json&)> line) {
+              const std::string& example, std::function<json()> describe,
+              std::function<std::string(const json&)> line) {
     CLI::App* command = app.add_subcommand(name, summary);
     auto as_json = std::make_shared<bool>(false);
     auto ids = std::make_shared<std::vector<std::string>>();
