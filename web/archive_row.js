@@ -66,6 +66,7 @@ export function archive_row(entry, { box, on_filter, on_gone, on_error }) {
       el(
         "span",
         { class: "entry-tags" },
+        entry.pinned ? el("span", { class: "chip", title: "Neither deleted nor pruned" }, "pinned") : null,
         Object.entries(entry.tags ?? {}).map(([name, value]) =>
           el("span", { class: "chip tag" }, `${name}: ${short_value(value)}`),
         ),

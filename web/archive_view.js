@@ -139,15 +139,15 @@ class Archive {
       this.#more.hidden = !this.#cursor;
       this.#choice.learn(page.reports);
       this.#draw();
-      this.#say_count(page.count);
+      this.#say_count(page);
     } catch (error) {
       if (!mine.signal.aborted) this.#fail(error);
     }
   }
 
-  #say_count(count) {
+  #say_count({ count, count_is_exact }) {
     const is_filtered = Object.values(this.#query).some(Boolean);
-    const some = `${integer(count)} ${count === 1 ? "report" : "reports"}${is_filtered ? " match" : ""}`;
+    const some = `${count_is_exact ? "" : "More than "}${integer(count)} ${count === 1 ? "report" : "reports"}${is_filtered ? " match" : ""}`;
     set_children(
       this.#note,
       count > 0
@@ -224,9 +224,9 @@ class Archive {
       const was_lost = this.#note.querySelector(".error-text") !== null;
       if (this.#signal.aborted || !(was_lost || this.#entries.some(is_unsettled))) continue;
       try {
-        const { reports, count } = await list_reports({ ...this.#query, limit: PAGE_SIZE }, this.#signal);
-        this.#renew(reports);
-        if (was_lost) this.#say_count(count);
+        const page = await list_reports({ ...this.#query, limit: PAGE_SIZE }, this.#signal);
+        this.#renew(page.reports);
+        if (was_lost) this.#say_count(page);
       } catch (error) {
         if (!this.#signal.aborted) this.#fail(error);
       }

@@ -151,7 +151,7 @@ std::string sha256_of(const Content& content) {
     return text;
 }
 
-bool is_whole(const fs::path& place, const std::string& sha256) {
+bool needs_no_writing(const fs::path& place, const std::string& sha256) {
     std::error_code none;
     if (!fs::is_regular_file(place, none)) return false;
     try {
@@ -177,7 +177,7 @@ fs::path ContentFolder::place_of(const std::string& sha256) const {
 bool ContentFolder::put(const std::string& sha256, const std::string& bytes) {
     if (sha256_hex(bytes) != sha256) throw StoreError("the bytes of " + sha256 + " have another hash");
     const fs::path place = place_of(sha256);
-    if (is_whole(place, sha256)) return false;
+    if (needs_no_writing(place, sha256)) return false;
     std::string temporary_path;
     Descriptor file(make_temporary(place, temporary_path), place);
     TemporaryFile temporary(temporary_path);
@@ -209,6 +209,31 @@ std::optional<fs::path> ContentFolder::find(const std::string& sha256) const {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return std::nullopt;
     return path;
+}
+
+bool ContentFolder::is_whole(const std::string& sha256) const {
+    try {
+        open(sha256);
+        return true;
+    } catch (const DamagedData&) {
+        return false;
+    }
+}
+
+std::vector<std::string> ContentFolder::list() const {
+    std::vector<std::string> names;
+    // A folder that is removed meanwhile ends the loop.
+    std::error_code gone;
+    for (fs::recursive_directory_iterator at(m_folder, gone), end; !gone && at != end; at.increment(gone))
+        if (const std::string name = at->path().filename().string(); find(name) == at->path()) names.push_back(name);
+    return names;
+}
+
+std::int64_t ContentFolder::size_bytes(const std::string& sha256) const {
+    const auto path = find(sha256);
+    std::error_code error;
+    const std::uintmax_t size = path ? fs::file_size(*path, error) : 0;
+    return error ? 0 : static_cast<std::int64_t>(size);
 }
 
 void ContentFolder::remove(const std::string& sha256) {

@@ -14,6 +14,8 @@ struct DataFolder {
     std::filesystem::path assets() const { return root / "assets"; }
     /// Output of renderers until it is committed.
     std::filesystem::path scratch() const { return root / "scratch"; }
+    /// What a repair has set aside.
+    std::filesystem::path quarantine() const { return root / "quarantine"; }
     /// A file that reserves space, which is given up if a deletion needs it.
     std::filesystem::path reserve() const { return root / "reserve"; }
 };

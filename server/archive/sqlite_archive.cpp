@@ -1,19 +1,14 @@
 #include "server/archive/sqlite_archive.h"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <array>
-
-#include "embedded_server_files.h"
+#include "server/archive/sqlite_migrate.h"
 #include "server/archive/sqlite_open.h"
 
 namespace sheer {
 
 namespace {
 
-// Each turns an archive of version N-1 into one of version N.
-constexpr std::array migrations = {"schema.sql", "assets.sql", "retries.sql", "baselines.sql"};
 constexpr std::chrono::hours leftover_age{1};
 
 /// Opening an archive again after its last process has ended needs room.
@@ -24,12 +19,6 @@ SQLite::Database open_with_reserve(const DataFolder& folder, DiskRoom& room) {
         if (room.lack().empty() || !room.give_up_reserve()) throw;
     }
     return open_archive(folder);
-}
-
-std::string sql_file(const std::string& name) {
-    for (const EmbeddedFile& file : embedded_server_files())
-        if (file.path == name) return std::string(file.bytes);
-    throw StoreError("the program was built without " + name);
 }
 
 }  // namespace
@@ -49,25 +38,15 @@ SqliteArchive::SqliteArchive(const DataFolder& folder, LeaseRules rules, ClockMs
       m_assets(folder.assets()),
       m_room(folder),
       m_writer(open_with_reserve(folder, m_room)),
-      m_reader(open_reader(folder)) {
+      m_readers(folder) {
     check_archive(m_writer, folder);
     m_blobs.make();
     m_assets.make();
-    essential([&](SQLite::Database&) { migrate(folder); });
+    essential([&](SQLite::Database& database) { migrate_archive(database, folder); });
     m_blobs.remove_leftovers(leftover_age);
     m_assets.remove_leftovers(leftover_age);
     m_room.restore_reserve();
     checkpoint();
-}
-
-void SqliteArchive::migrate(const DataFolder& folder) {
-    const auto version = m_writer.execAndGet("PRAGMA user_version").getInt64();
-    if (version < 0 || static_cast<std::size_t>(version) > migrations.size())
-        throw StoreError(fmt::format("the archive in {} has version {}, but this program knows only version {}",
-                                     folder.root.string(), version, migrations.size()));
-    for (auto i = static_cast<std::size_t>(version); i < migrations.size(); ++i) m_writer.exec(sql_file(migrations[i]));
-    m_writer.exec(fmt::format("PRAGMA user_version = {}", migrations.size()));
-    m_writer.exec(fmt::format("PRAGMA application_id = {}", archive_application_id));
 }
 
 void SqliteArchive::checkpoint() {
@@ -76,7 +55,8 @@ void SqliteArchive::checkpoint() {
     const char* const pragma =
         m_room.lack().empty() ? "PRAGMA wal_checkpoint(PASSIVE)" : "PRAGMA wal_checkpoint(TRUNCATE)";
     try {
-        m_checkpoint_due = !guarded(m_writing, [&] {
+        const std::lock_guard lock(m_writing);
+        m_checkpoint_due = !translated([&] {
             SQLite::Statement carry(m_writer, pragma);
             return carry.executeStep() && carry.getColumn(1).getInt() == carry.getColumn(2).getInt();
         });

@@ -11,6 +11,7 @@
 #include "server/archive/content_folder.h"
 #include "server/archive/data_folder.h"
 #include "server/archive/disk_room.h"
+#include "server/archive/reader_pool.h"
 #include "server/jobs/lease_rules.h"
 #include "server/jobs/store_errors.h"
 
@@ -21,8 +22,8 @@ namespace sheer {
 
 /// What the parts of a SqliteStore share: the database, the files beside it, and the room on their disk.
 ///
-/// There is one connection for reading and another one for writing, so that readers do not wait for the write lock:
-/// they read the state of the last commit.
+/// There is one connection for writing, and others for reading, so that readers wait neither for the write lock nor for
+/// each other: they read the state of the last commit.
 class SqliteArchive {
   public:
     /// Makes what is missing, and brings the database up to date. Throws StoreError, also for an archive of a newer
@@ -32,14 +33,15 @@ class SqliteArchive {
     /// Returns the result of `work(database)`, which only reads.
     template <typename Work>
     auto read(const Work& work) {
-        return guarded(m_reading, [&] { return work(m_reader); });
+        return translated([&] { return m_readers.use(work); });
     }
 
     /// The same inside a transaction that holds the write lock from its start, so that what it read is still true when
     /// it writes.
     template <typename Work>
     auto write(const Work& work) {
-        return guarded(m_writing, [&] {
+        const std::lock_guard lock(m_writing);
+        return translated([&] {
             SQLite::Transaction transaction(m_writer, SQLite::TransactionBehavior::IMMEDIATE);
             if constexpr (std::is_void_v<decltype(work(m_writer))>) {
                 work(m_writer);
@@ -77,8 +79,7 @@ class SqliteArchive {
 
   private:
     template <typename Work>
-    static auto guarded(std::mutex& mutex, const Work& work) {
-        const std::lock_guard lock(mutex);
+    static auto translated(const Work& work) {
         try {
             return work();
         } catch (const SQLite::Exception& error) {
@@ -86,16 +87,13 @@ class SqliteArchive {
         }
     }
 
-    void migrate(const DataFolder& folder);
-
     const LeaseRules m_rules;
     const ClockMs m_clock;
     ContentFolder m_blobs, m_assets;
     DiskRoom m_room;
     std::mutex m_writing;  ///< guards m_writer
     SQLite::Database m_writer;
-    std::mutex m_reading;  ///< guards m_reader
-    SQLite::Database m_reader;
+    ReaderPool m_readers;
     std::atomic<bool> m_checkpoint_due = false;  ///< a part of the log was left
 };
 

@@ -49,10 +49,15 @@ void SqliteAssets::add(const Asset& asset, const std::string& bytes) {
             // A deletion may have removed the file before the write lock was held.
             if (!m_archive.assets().find(asset.sha256)) m_archive.assets().put(asset.sha256, bytes);
             SQLite::Statement insert(database,
-                                     "INSERT INTO assets VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+                                     "INSERT INTO assets VALUES (?, ?, ?, ?, ?, ?, ?, '') ON CONFLICT DO NOTHING");
             SQLite::bind(insert, asset.sha256, asset.type, asset.media_type, asset.name, asset.size_bytes,
                          m_archive.now_ms(), asset.facts.dump());
             insert.exec();
+            SQLite::Statement seal(database,
+                                   "UPDATE assets SET seal = (SELECT seal FROM sealed_assets WHERE sha256 = ?1) "
+                                   "WHERE sha256 = ?1 AND seal = ''");
+            seal.bind(1, asset.sha256);
+            seal.exec();
         });
     } catch (const StoreError&) {
         remove_file_without_row(asset.sha256);

@@ -25,9 +25,14 @@ Baselines::Acceptance SqliteBaselines::accept(const AcceptedReport& accepted) {
         if (status.empty()) return Acceptance::not_found;
         if (status != "done") return Acceptance::not_done;
         const bool is_known = is_accepted(database, accepted);
-        SQLite::Statement insert(database, "INSERT OR REPLACE INTO baselines VALUES (?, ?, ?, ?, ?)");
+        SQLite::Statement insert(database, "INSERT OR REPLACE INTO baselines VALUES (?, ?, ?, ?, ?, '')");
         SQLite::bind(insert, accepted.name, accepted.report_id, m_archive.now_ms(), accepted.by, accepted.reason);
         insert.exec();
+        SQLite::Statement seal(database,
+                               "UPDATE baselines SET seal = (SELECT seal FROM sealed_baselines WHERE name = ?1 AND "
+                               "report_id = ?2) WHERE name = ?1 AND report_id = ?2");
+        SQLite::bind(seal, accepted.name, accepted.report_id);
+        seal.exec();
         return is_known ? Acceptance::renewed : Acceptance::added;
     });
     m_archive.checkpoint();

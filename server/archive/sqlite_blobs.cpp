@@ -24,8 +24,8 @@ std::optional<Blob> SqliteBlobs::open(const std::string& sha256) {
 }
 
 void SqliteBlobs::add(SQLite::Database& database, const std::string& report, const BlobName& blob) {
-    SQLite::Statement keep(database, "INSERT INTO blobs VALUES (?, ?) ON CONFLICT DO NOTHING");
-    SQLite::bind(keep, blob.sha256, blob.media_type);
+    SQLite::Statement keep(database, "INSERT INTO blobs VALUES (?, ?, ?) ON CONFLICT DO NOTHING");
+    SQLite::bind(keep, blob.sha256, blob.media_type, m_archive.blobs().size_bytes(blob.sha256));
     keep.exec();
     SQLite::Statement name(database, "INSERT INTO report_blobs VALUES (?, ?) ON CONFLICT DO NOTHING");
     SQLite::bind(name, report, blob.sha256);

@@ -1,5 +1,10 @@
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
+#include "server/archive/list_query.h"
+#include "server/archive/sqlite_functions.h"
 #include "server/archive/sqlite_reports.h"
 #include "server/archive/sqlite_steps.h"
 
@@ -8,53 +13,6 @@ namespace sheer {
 using nlohmann::json;
 
 namespace {
-
-/// `text` for LIKE ... ESCAPE '\', to be found anywhere.
-std::string like_pattern(const std::string& text) {
-    std::string pattern = "%";
-    for (const char c : text) {
-        if (c == '%' || c == '_' || c == '\\') pattern += '\\';
-        pattern += c;
-    }
-    return pattern + "%";
-}
-
-struct Query {
-    std::string where = "1";
-    std::vector<std::string> values;
-
-    void add(const std::string& condition, const std::vector<std::string>& more_values) {
-        where += " AND " + condition;
-        values.insert(values.end(), more_values.begin(), more_values.end());
-    }
-};
-
-Query query_of(const ListFilter& filter) {
-    Query query;
-    if (filter.status) query.add("status = ?", {std::string(status_text(*filter.status))});
-    if (!filter.scene.empty()) query.add("scene = ?", {filter.scene});
-    if (!filter.method.empty())
-        query.add("EXISTS (SELECT 1 FROM report_methods m WHERE m.report_id = id AND m.method = lower(?))",
-                  {filter.method});
-    if (!filter.q.empty()) {
-        const std::string pattern = like_pattern(filter.q);
-        query.add(
-            "(title LIKE ? ESCAPE '\\' OR EXISTS (SELECT 1 FROM report_tags t WHERE t.report_id = id AND t.value "
-            "LIKE ? ESCAPE '\\'))",
-            {pattern, pattern});
-    }
-    if (!filter.tag.empty()) {
-        const std::size_t colon = filter.tag.find(':');
-        const std::string name = filter.tag.substr(0, colon);
-        if (colon == std::string::npos) {
-            query.add("EXISTS (SELECT 1 FROM report_tags t WHERE t.report_id = id AND t.name = ?)", {name});
-        } else {
-            query.add("EXISTS (SELECT 1 FROM report_tags t WHERE t.report_id = id AND t.name = ? AND t.value = ?)",
-                      {name, filter.tag.substr(colon + 1)});
-        }
-    }
-    return query;
-}
 
 ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
     ReportSummary summary{.id = row.getColumn(0).getString()};
@@ -75,6 +33,8 @@ ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
             summary.broken = "its preview cannot be read";
         }
     }
+    summary.device = row.getColumn(12).getString();
+    summary.pinned = row.getColumn(13).getInt() != 0;
     SQLite::Statement methods(database, "SELECT method FROM report_methods WHERE report_id = ? ORDER BY position");
     methods.bind(1, summary.id);
     while (methods.executeStep()) summary.methods.push_back(methods.getColumn(0).getString());
@@ -84,31 +44,35 @@ ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
     return summary;
 }
 
+std::vector<std::int64_t> places_of(SQLite::Database& database, const ListSql& sql) {
+    SQLite::Statement rows(database, sql.text);
+    sql.bind(rows);
+    std::vector<std::int64_t> places;
+    while (rows.executeStep()) places.push_back(rows.getColumn(0).getInt64());
+    return places;
+}
+
 }  // namespace
 
 ReportPage SqliteReports::list(const ListFilter& filter) {
-    const Query of_all = query_of(filter);
-    Query query = of_all;
-    if (!filter.before_id.empty()) query.add("id < ?", {filter.before_id});
     return m_archive.read([&](SQLite::Database& database) {
         // One transaction, so that the lines, their methods and their tags are consistent.
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::DEFERRED);
-        SQLite::Statement rows(database,
-                               "SELECT id, status, progress, created_ms, finished_ms, title, scene, spec_sha256, "
-                               "error_title, error_detail, verdict, preview FROM reports WHERE " +
-                                   query.where + " ORDER BY id DESC LIMIT ?");
-        int index = 0;
-        for (const std::string& value : query.values) rows.bind(++index, value);
-        rows.bind(++index, filter.limit + 1);
+        const ListQuery query(database, filter);
         ReportPage page;
-        SQLite::Statement count(database, "SELECT COUNT(*) FROM reports WHERE " + of_all.where);
-        int place = 0;
-        for (const std::string& value : of_all.values) count.bind(++place, value);
-        if (count.executeStep()) page.count = count.getColumn(0).getInt64();
-        while (rows.executeStep()) {
-            page.more = static_cast<int>(page.reports.size()) == filter.limit;
-            if (page.more) break;
-            page.reports.push_back(summary_of(database, rows));
+        std::tie(page.count, page.count_is_exact) = query.count();
+        std::vector<std::int64_t> places = places_of(database, query.page());
+        page.more = places.size() > static_cast<std::size_t>(filter.limit);
+        if (page.more) places.resize(static_cast<std::size_t>(filter.limit));
+        SQLite::Statement line(
+            database,
+            "SELECT id, status, progress, created_ms, finished_ms, title, scene, spec_sha256, error_title, "
+            "error_detail, verdict, preview, device, EXISTS (SELECT 1 FROM pins p WHERE p.report_id = id) "
+            "FROM search_lines JOIN reports ON id = report_id WHERE place = ?");
+        for (const std::int64_t place : places) {
+            line.bind(1, place);
+            if (line.executeStep()) page.reports.push_back(summary_of(database, line));
+            line.reset();
         }
         return page;
     });

@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 
+#include "server/archive/sqlite_functions.h"
 #include "server/jobs/store_errors.h"
 
 namespace sheer {
@@ -95,6 +96,7 @@ SQLite::Database open_archive(const DataFolder& folder) {
         SQLite::Database database(folder.database().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                                   busy_timeout_ms);
         check_identity(database, folder);
+        add_functions(database);
         database.exec("PRAGMA journal_mode = WAL");
         database.exec("PRAGMA synchronous = FULL");
         database.exec("PRAGMA foreign_keys = ON");

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 
+#include "server/archive/report_rows.h"
 #include "server/archive/sqlite_steps.h"
-#include "server/jobs/facets.h"
 
 namespace sheer {
-
-using nlohmann::json;
 
 namespace {
 
@@ -28,29 +26,6 @@ LeaseState read_state(SQLite::Database& database, const Lease& lease) {
     bind_lease(row, 1, lease);
     if (!row.executeStep()) return LeaseState::lost;
     return row.getColumn(0).getInt() != 0 ? LeaseState::cancel_requested : LeaseState::held;
-}
-
-void insert_report(SQLite::Database& database, const NewReport& report, std::int64_t now_ms) {
-    const Facets facets = facets_of(json::parse(report.spec));
-    SQLite::Statement insert(database,
-                             "INSERT INTO reports (id, status, created_ms, title, scene, spec, spec_sha256, "
-                             "idempotency_key, body_sha256) VALUES (?, 'queued', ?, ?, ?, ?, ?, ?, ?)");
-    SQLite::bind(insert, report.id, now_ms, facets.title, facets.scene, report.spec, report.spec_sha256);
-    if (report.idempotency) {
-        insert.bind(7, report.idempotency->key);
-        insert.bind(8, report.idempotency->body_sha256);
-    }
-    insert.exec();
-    for (std::size_t i = 0; i < facets.methods.size(); ++i) {
-        SQLite::Statement method(database, "INSERT INTO report_methods VALUES (?, ?, ?)");
-        SQLite::bind(method, report.id, static_cast<std::int64_t>(i), facets.methods[i]);
-        method.exec();
-    }
-    for (const auto& [name, value] : facets.tags.items()) {
-        SQLite::Statement tag(database, "INSERT INTO report_tags VALUES (?, ?, ?)");
-        SQLite::bind(tag, report.id, name, value.get<std::string>());
-        tag.exec();
-    }
 }
 
 }  // namespace
@@ -157,18 +132,7 @@ bool SqliteQueue::commit_rows(const Lease& lease, const FinishedReport& finished
         // Before the write lock was held, a deletion may have removed a file that another report shared with this one.
         for (const BlobName& blob : finished.blobs)
             if (!m_archive.blobs().find(blob.sha256)) put_blob(finished, blob, added);
-        SQLite::Statement done(
-            database,
-            "UPDATE reports SET status = 'done', progress = 1, stage = '', revision = revision + 1, "
-            "died_of = NULL, finished_ms = ?, verdict = ?, preview = ?, report = ?, lease_owner = NULL, "
-            "lease_until_ms = NULL WHERE id = ?");
-        const json preview = preview_of(finished.report);
-        SQLite::bind(done, finished.finished_ms, finished.report.value("verdict", ""));
-        if (!preview.is_null()) done.bind(3, preview.dump());
-        done.bind(4, finished.report.dump());
-        done.bind(5, lease.id);
-        done.exec();
-        for (const BlobName& blob : finished.blobs) m_blobs.add(database, lease.id, blob);
+        finish_report(database, m_blobs, lease.id, finished);
         write_rendered(database, m_archive.now_ms());
         return true;
     });

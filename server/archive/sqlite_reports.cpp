@@ -15,9 +15,11 @@ std::optional<std::int64_t> optional_int(const SQLite::Column& column) {
 
 std::optional<ReportRecord> SqliteReports::find(const std::string& id) {
     return m_archive.read([&](SQLite::Database& database) -> std::optional<ReportRecord> {
-        SQLite::Statement row(database,
-                              "SELECT status, progress, stage, revision, created_ms, finished_ms, spec, spec_sha256, "
-                              "error_title, error_detail, coalesce(report, '') FROM reports WHERE id = ?");
+        SQLite::Statement row(
+            database,
+            "SELECT status, progress, stage, revision, created_ms, finished_ms, spec, spec_sha256, "
+            "error_title, error_detail, sha256, packed FROM reports LEFT JOIN documents ON report_id = id "
+            "WHERE id = ?");
         row.bind(1, id);
         if (!row.executeStep()) return std::nullopt;
         ReportRecord record{.id = id, .status = status_of(row.getColumn(0))};
@@ -29,7 +31,7 @@ std::optional<ReportRecord> SqliteReports::find(const std::string& id) {
         record.spec = row.getColumn(6).getString();
         record.spec_sha256 = row.getColumn(7).getString();
         record.error = error_of(row.getColumn(8), row.getColumn(9));
-        record.report = row.getColumn(10).getString();
+        if (record.status == Status::done) record.report = document_in(row.getColumn(10), row.getColumn(11), id);
         return record;
     });
 }
@@ -56,6 +58,9 @@ ReportArchive::Removal SqliteReports::remove(const std::string& id) {
         SQLite::Statement accepted(database, "SELECT 1 FROM baselines WHERE report_id = ?");
         accepted.bind(1, id);
         if (accepted.executeStep()) return Removal::accepted;
+        SQLite::Statement pinned(database, "SELECT 1 FROM pins WHERE report_id = ?");
+        pinned.bind(1, id);
+        if (pinned.executeStep()) return Removal::pinned;
         SQLite::Statement named(database, "SELECT sha256 FROM report_blobs WHERE report_id = ?");
         named.bind(1, id);
         while (named.executeStep()) candidates.push_back(named.getColumn(0).getString());

@@ -2,12 +2,30 @@
 
 #include <fmt/format.h>
 
+#include "renderer/core/sha256.h"
+#include "server/archive/packed_text.h"
+#include "server/jobs/limits.h"
+
 namespace sheer {
 
 Status status_of(const SQLite::Column& column) {
     const auto status = status_from(column.getString());
     if (!status) throw StoreError("archive: unknown status " + column.getString());
     return *status;
+}
+
+std::string document_in(const SQLite::Column& sha256, const SQLite::Column& packed, const std::string& id) {
+    const auto* const bytes = static_cast<const char*>(packed.getBlob());
+    if (bytes == nullptr) throw DamagedData(fmt::format("the text of report {} is missing", id));
+    std::string text;
+    try {
+        text = unpack_text({bytes, static_cast<std::size_t>(packed.getBytes())}, max_report_bytes);
+    } catch (const DamagedData&) {
+        throw DamagedData(fmt::format("the text of report {} cannot be read", id));
+    }
+    if (sha256_hex(text) != sha256.getString())
+        throw DamagedData(fmt::format("the text of report {} has another hash", id));
+    return text;
 }
 
 std::optional<JobError> error_of(const SQLite::Column& title, const SQLite::Column& detail) {
@@ -35,6 +53,15 @@ void end_attempt(SQLite::Database& database, const SqliteArchive& archive, const
     }
     end.bind(5, id);
     end.exec();
+    seal_report(database, id);
+}
+
+void seal_report(SQLite::Database& database, const std::string& id) {
+    SQLite::Statement seal(database,
+                           "INSERT OR REPLACE INTO report_seals SELECT report_id, sha256 FROM sealed_reports "
+                           "WHERE report_id = ?");
+    seal.bind(1, id);
+    seal.exec();
 }
 
 void requeue(SQLite::Database& database, const std::string& id, int attempts) {

@@ -12,11 +12,15 @@ namespace sheer {
 
 /// Throws StoreError for a text that is not a status.
 Status status_of(const SQLite::Column& column);
+/// The text of the done report `id`. Throws DamagedData if it cannot be read or has another hash.
+std::string document_in(const SQLite::Column& sha256, const SQLite::Column& packed, const std::string& id);
 std::optional<JobError> error_of(const SQLite::Column& title, const SQLite::Column& detail);
 
 /// Ends an attempt: the job gets a final status or is queued again. `error` is for failed jobs.
 void end_attempt(SQLite::Database& database, const SqliteArchive& archive, const std::string& id, const JobError& error,
                  Status status);
+/// Call it when a report has become final.
+void seal_report(SQLite::Database& database, const std::string& id);
 void requeue(SQLite::Database& database, const std::string& id, int attempts);
 /// Call it after room was made.
 void try_again_what_lacked_room(SQLite::Database& database);

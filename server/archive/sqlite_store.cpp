@@ -3,6 +3,8 @@
 #include "server/archive/sqlite_assets.h"
 #include "server/archive/sqlite_baselines.h"
 #include "server/archive/sqlite_blobs.h"
+#include "server/archive/sqlite_care.h"
+#include "server/archive/sqlite_pins.h"
 #include "server/archive/sqlite_queue.h"
 #include "server/archive/sqlite_readiness.h"
 #include "server/archive/sqlite_reports.h"
@@ -21,7 +23,9 @@ struct SqliteStore::Parts {
     SqliteReports reports{archive, blobs};
     SqliteAssets assets{archive};
     SqliteBaselines baselines{archive};
+    SqlitePins pins{archive};
     SqliteReadiness readiness{archive};
+    SqliteCare care{archive, blobs, folder};
 };
 
 SqliteStore::SqliteStore(const std::filesystem::path& folder, LeaseRules rules, ClockMs clock)
@@ -44,8 +48,14 @@ Assets& SqliteStore::assets() {
 Baselines& SqliteStore::baselines() {
     return m_parts->baselines;
 }
+Pins& SqliteStore::pins() {
+    return m_parts->pins;
+}
 Readiness& SqliteStore::readiness() {
     return m_parts->readiness;
+}
+Care& SqliteStore::care() {
+    return m_parts->care;
 }
 std::unique_ptr<ChangeWatch> SqliteStore::watch() {
     return std::make_unique<SqliteWatch>(m_parts->folder);

@@ -6,6 +6,7 @@
 namespace sheer::cli {
 
 // Each adds its subcommand to `app`; if it is chosen, it runs and stores the exit code.
+void add_archive(CLI::App& app, int& exit_code);  ///< the care of an archive
 void add_baseline(CLI::App& app, int& exit_code);
 void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, metrics, suites
 void add_serve(CLI::App& app, int& exit_code);

@@ -14,6 +14,7 @@
 #include "server/http/application.h"
 #include "server/http/server.h"
 #include "server/http/service.h"
+#include "server/jobs/prune_timer.h"
 
 namespace sheer::cli {
 
@@ -101,6 +102,7 @@ void serve(const ServeOptions& options) {
                                          std::string_view target) { return application.handling(method, target); },
                          .changes = store.watch(),
                          .reload = [&options] { reload(options); }});
+    const PruneTimer pruning(store, config.retention, config.retention_interval, system_now_ms);
     Supervisor workers(store.queue(), supervisor_options(config, options));
     fmt::print("Sheer listens on {}{}\n", http::url_of(server.endpoint()), config.path_prefix);
     std::fflush(stdout);

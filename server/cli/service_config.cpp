@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "renderer/command/command.h"
+#include "server/cli/retention_config.h"
 #include "server/http/guard.h"
 #include "server/http/path_prefix.h"
 
@@ -115,6 +116,18 @@ Section general_settings() {
               [](ServiceConfig& config, const json& value) { config.log_level = value; }}}};
 }
 
+Section archive_settings() {
+    Param rules = Param::list("retention",
+                              "which reports are removed; the first rule whose tag a report has decides about it, and "
+                              "pinned and accepted reports are always kept",
+                              retention_fields(), 0, 100);
+    return {
+        "archive",
+        "the archive's reports",
+        {{rules, [](ServiceConfig& config, const json& value) { config.retention = retention_rules(value); }},
+         seconds("retention_interval_s", "time between two removals", week_s, at(&ServiceConfig::retention_interval))}};
+}
+
 Section http_settings() {
     using http::AnswerLimits, http::Limits;
     const auto of_connections = [](auto member) { return in(&ServiceConfig::http, member); };
@@ -212,8 +225,8 @@ Section sandbox_settings() {
 }
 
 std::vector<Section> all_settings() {
-    return {general_settings(), http_settings(),   jobs_settings(),
-            assets_settings(),  worker_settings(), sandbox_settings()};
+    return {general_settings(), http_settings(),   jobs_settings(),   assets_settings(),
+            archive_settings(), worker_settings(), sandbox_settings()};
 }
 
 void check_texts(const std::string& pointer, const json& texts, std::vector<FieldError>& errors,
@@ -248,6 +261,7 @@ ServiceConfig read_service_config(const json& document) {
     check_texts("/allowed_hosts", read["allowed_hosts"], errors, [](const std::string&) { return ""; });
     check_texts("/sandbox/readable", read["sandbox"]["readable"], errors, [](const std::string&) { return ""; });
     check_texts("/cors_origins", read["cors_origins"], errors, http::wrong_origin);
+    if (errors.empty()) check_retention(read["archive"]["retention"], "/archive/retention", errors);
     if (errors.empty())
         if (const std::string wrong = http::wrong_path_prefix(read["path_prefix"].get<std::string>()); !wrong.empty())
             errors.push_back({"/path_prefix", wrong});

@@ -9,6 +9,7 @@
 #include "server/jobs/lease_rules.h"
 #include "server/process/ask_child.h"
 #include "server/process/sandbox_settings.h"
+#include "server/jobs/retention.h"
 #include "server/worker/worker.h"
 
 namespace sheer::cli {
@@ -30,6 +31,8 @@ struct ServiceConfig {
     SandboxSettings sandbox;
     ChildLimits upload_check{.memory_bytes = std::uint64_t{2} << 30, .time = std::chrono::seconds(20)};
     ChildLimits question;  ///< of a child that explains a pixel or compares reports; its memory is a renderer's
+    std::vector<RetentionRule> retention;
+    std::chrono::milliseconds retention_interval{3'600'000};
     WorkerOptions worker;  ///< without `scratch`, `data`, `name`, `rules` and `sandbox`
 };
 

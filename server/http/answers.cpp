@@ -101,6 +101,8 @@ const Description<answer::ReportLine>& description_of() {
             .json(&ReportLine::verdict, "verdict", "null until it is done", verdict_schema)
             .json(&ReportLine::preview, "preview", "a picture that represents it; null until it is done",
                   preview_schema)
+            .text_or_null(&ReportLine::device, "device", "the renderer; null until it is done")
+            .member(&ReportLine::pinned, "pinned", "whether it is neither deleted nor pruned")
             .maybe(&ReportLine::broken, "broken", "what can no longer be read; absent if everything can");
     return description;
 }
@@ -112,7 +114,8 @@ const Description<answer::ReportList>& description_of() {
         Description<ReportList>("ReportList", "a page of the archive")
             .member(&ReportList::reports, "reports", "newest first")
             .text_or_null(&ReportList::next_cursor, "next_cursor", "`cursor` of the next page; null on the last one")
-            .member(&ReportList::count, "count", "how many reports match on all pages together");
+            .member(&ReportList::count, "count", "how many reports match on all pages together")
+            .member(&ReportList::count_is_exact, "count_is_exact", "false: more than `count` match");
     return description;
 }
 
@@ -187,6 +190,18 @@ const Description<answer::AcceptedReport>& description_of() {
             .member(&AcceptedReport::accepted_at, "accepted_at", "UTC, RFC 3339")
             .member(&AcceptedReport::by, "by", "who accepted it; may be empty")
             .member(&AcceptedReport::reason, "reason", "why; may be empty");
+    return description;
+}
+
+template <>
+const Description<answer::Pin>& description_of() {
+    using answer::Pin;
+    static const auto description = Description<Pin>("Pin", "a report that is neither deleted nor pruned")
+                                        .member(&Pin::report, "report", "its id")
+                                        .member(&Pin::url, "url", "path of the report")
+                                        .member(&Pin::pinned_at, "pinned_at", "UTC, RFC 3339")
+                                        .member(&Pin::by, "by", "who pinned it; may be empty")
+                                        .member(&Pin::reason, "reason", "why; may be empty");
     return description;
 }
 

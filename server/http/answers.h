@@ -54,6 +54,8 @@ struct ReportLine : Progress {
     std::vector<std::string> methods;
     std::string spec_sha256;
     nlohmann::json verdict, preview;
+    std::string device;
+    bool pinned = false;
     std::string broken;
 };
 
@@ -61,6 +63,7 @@ struct ReportList {
     std::vector<ReportLine> reports;
     std::string next_cursor;
     std::int64_t count = 0;
+    bool count_is_exact = true;
 };
 
 /// The findings of the check of an upload; which of them are present depends on the type of the file.
@@ -93,6 +96,10 @@ struct AssetList {
 
 struct AcceptedReport {
     std::string report, url, title, spec_sha256, device, accepted_at, by, reason;
+};
+
+struct Pin {
+    std::string report, url, pinned_at, by, reason;
 };
 
 struct Baseline {
@@ -132,6 +139,8 @@ template <>
 const Description<http::answer::AssetList>& description_of();
 template <>
 const Description<http::answer::AcceptedReport>& description_of();
+template <>
+const Description<http::answer::Pin>& description_of();
 template <>
 const Description<http::answer::Baseline>& description_of();
 template <>

@@ -154,7 +154,7 @@ Answer Application::handle(Request& request) const {
             .with("Allow", allow);
     request.path_values = std::move(match.path_values);
     request.query = read_query(question == std::string_view::npos ? "" : target.substr(question + 1),
-                               match.route->query, match.route->wrong_query_status);
+                               match.route->query, match.route->wrong_query_status, match.route->repeatable);
     check_accept(*match.route, request);
     check_body_coding(request);
     check_body_type(*match.route, request.headers.find("Content-Type"));

@@ -48,6 +48,7 @@ void add_answers(SchemaBook& book) {
     schema_in<answer::ReportList>(book);
     schema_in<answer::AssetList>(book);
     schema_in<answer::BaselineList>(book);
+    schema_in<answer::Pin>(book);
     schema_in<answer::Health>(book);
     schema_in<answer::Readiness>(book);
     schema_in<answer::Problem>(book);
@@ -87,7 +88,7 @@ void narrow(json& report, const std::vector<report::Status>& statuses) {
 }
 
 void mark_times(json& schema) {
-    for (const char* name : {"created_at", "finished_at", "last_rendered_at", "accepted_at"})
+    for (const char* name : {"created_at", "finished_at", "last_rendered_at", "accepted_at", "pinned_at"})
         if (schema.contains(json::json_pointer("/properties") / name))
             schema["properties"][name]["format"] = "date-time";
 }
@@ -99,6 +100,7 @@ std::map<std::string, json> component_schemas() {
     add_catalogue(book);
     add_answers(book);
     catalog::posted_spec_reference(book);
+    book.reference("PinRemark", [](SchemaBook&) { return pin_schema(); });
     book.reference("Acceptance", [](SchemaBook&) { return acceptance_schema(); });
     book.reference(normalised_spec_name, [](SchemaBook&) { return normalised_spec_schema(); });
     book.reference("AnyReport", any_report);

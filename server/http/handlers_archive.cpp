@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "renderer/core/clock.h"
 #include "server/http/byte_range.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
@@ -14,8 +15,24 @@ namespace {
 
 constexpr std::size_t max_text_bytes = 200;
 
+/// None if it is not given. Throws Problem (400).
+std::optional<std::int64_t> time_in(const json& query, const char* name) {
+    const std::string text = query[name];
+    if (text.empty()) return std::nullopt;
+    const auto time_ms = time_of_utc_text(text);
+    if (!time_ms)
+        throw Problem(400, "The query is wrong.",
+                      {{fmt::format("/{}", name), "must be a day or a time in UTC, such as 2026-11-27T12:00:00Z"}});
+    return time_ms;
+}
+
 ListFilter filter_of(const json& query) {
-    ListFilter filter{.q = query["q"], .tag = query["tag"], .method = query["method"], .scene = query["scene"]};
+    ListFilter filter{.q = query["q"], .tags = query["tag"], .methods = query["method"], .scene = query["scene"]};
+    filter.device = query["device"];
+    filter.spec_sha256 = query["spec_sha256"];
+    if (query["verdict"].is_string()) filter.verdict = query["verdict"];
+    filter.since_ms = time_in(query, "since");
+    filter.until_ms = time_in(query, "until");
     filter.limit = query["limit"];
     if (query["status"].is_string()) filter.status = status_from(query["status"].get<std::string>());
     const std::string cursor = query["cursor"];
@@ -28,7 +45,7 @@ ListFilter filter_of(const json& query) {
 
 Answer list_reports(Service& service, const Request& request) {
     const ReportPage page = service.store.reports().list(filter_of(request.query));
-    answer::ReportList list{.count = page.count};
+    answer::ReportList list{.count = page.count, .count_is_exact = page.count_is_exact};
     for (const ReportSummary& summary : page.reports) list.reports.push_back(line_of(summary));
     if (page.more) list.next_cursor = cursor_after(page.reports.back().id);
     return json_response(200, to_document(list));
@@ -68,13 +85,23 @@ std::vector<Param> list_query() {
     status.optional = true;
     for (const Status each : {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled})
         status.choices.emplace_back(status_text(each));
+    Param verdict{.name = "verdict", .kind = Param::Kind::choice, .summary = "verdict of the reports"};
+    verdict.optional = true;
+    verdict.choices = {"passed", "failed", "undecided", "none"};
     return {Param::integer("limit", "greatest number of reports", "", 20, 1, 100),
             Param::text("cursor", "next_cursor of the previous page", "", max_text_bytes),
-            Param::text("q", "part of the title or of a tag's value; case is ignored", "", max_text_bytes),
-            Param::text("tag", "name of a tag, or name:value", "", max_text_bytes),
-            Param::text("method", "id of one of the compared methods", "", max_text_bytes),
+            Param::text("q", "words, each of which begins a word of the title or of a tag's value; case is ignored", "",
+                        max_text_bytes),
+            Param::text("tag", "name of a tag, or name:value; each that is given", "", max_text_bytes),
+            Param::text("method", "id of one of the compared methods; each that is given", "", max_text_bytes),
             Param::text("scene", "type of the scene", "", max_text_bytes),
-            std::move(status)};
+            Param::text("device", "name of the renderer, or one word of it; case is ignored", "", max_text_bytes),
+            Param::text("spec_sha256", "SHA-256 of the spec", "", max_text_bytes),
+            Param::text("since", "created then or later: a day or a time in UTC, such as 2026-11-27T12:00:00Z", "",
+                        max_text_bytes),
+            Param::text("until", "created then or earlier; a day means its first moment", "", max_text_bytes),
+            std::move(status),
+            std::move(verdict)};
 }
 
 }  // namespace
@@ -89,7 +116,8 @@ std::vector<Route> archive_routes(Service& service) {
                  "move it.",
              .query = list_query(),
              .replies = {{200, "A page of the list", "application/json", "ReportList"}},
-             .handle = [&service](const Request& request) { return list_reports(service, request); }},
+             .handle = [&service](const Request& request) { return list_reports(service, request); },
+             .repeatable = {"tag", "method"}},
             {.method = "GET",
              .pattern = std::string(blobs_path) + "/{sha256}",
              .id = "getBlob",

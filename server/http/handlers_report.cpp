@@ -1,17 +1,15 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <iterator>
-#include <map>
 
 #include "renderer/files/html.h"
 #include "renderer/report/markdown.h"
 #include "renderer/report/report.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
+#include "server/http/report_zip.h"
 #include "server/http/service.h"
 #include "server/http/text.h"
-#include "server/http/zip.h"
 
 namespace sheer::http {
 
@@ -53,41 +51,11 @@ Answer get_summary(Service& service, const Request& request) {
     return text_response(200, report_markdown(report_of(record)), "text/markdown; charset=utf-8");
 }
 
-/// The pictures of a report as files of the ZIP, each once; from now on the report refers to these files.
-std::vector<ZipEntry> picture_entries(Service& service, report::Report& report) {
-    std::map<std::string, std::string> names;  // by SHA-256
-    for (const report::Picture& picture : report.pictures())
-        names[picture.sha256] =
-            fmt::format("images/{}.{}", picture.sha256, picture.media_type == "image/png" ? "png" : "exr");
-    const auto relink = [&](report::Pictures& pictures) {
-        for (auto& [key, picture] : pictures) picture.url = names.at(picture.sha256);
-    };
-    for (report::Run& run : report.runs) {
-        relink(run.reference.images);
-        for (report::Result& result : run.results) relink(result.images);
-    }
-    std::vector<ZipEntry> entries;
-    for (const auto& [sha256, name] : names) {
-        const auto blob = service.store.blobs().open(sha256);
-        if (!blob) throw DamagedData(fmt::format("the picture {} is missing", sha256));
-        entries.push_back({name, blob->content});
-    }
-    return entries;
-}
-
 Answer get_zip(Service& service, const Request& request) {
-    report::Report report = done_report(service.store, request.path_values.at("id"));
-    const auto read_picture = [&service](const report::Picture& picture) {
-        return picture_bytes(service.store, picture);
-    };
-    std::vector<ZipEntry> entries = {{"report.html", content_of(report_html(report, read_picture))},
-                                     {"junit.xml", content_of(report_junit(report))},
-                                     {"summary.md", content_of(report_markdown(report))}};
-    std::ranges::move(picture_entries(service, report), std::back_inserter(entries));
-    entries.push_back({"report.json", content_of(to_document(report).dump(2) + "\n")});
-    Response response{.status = 200, .headers = {}, .body = zip_of(std::move(entries))};
+    const std::string id = request.path_values.at("id");
+    Response response{.status = 200, .headers = {}, .body = report_zip(service.store, id)};
     response.headers.add("Content-Type", "application/zip");
-    response.headers.add("Content-Disposition", fmt::format("attachment; filename=\"sheer-{}.zip\"", report.id));
+    response.headers.add("Content-Disposition", fmt::format("attachment; filename=\"sheer-{}.zip\"", id));
     return response;
 }
 
@@ -102,6 +70,8 @@ Answer delete_report(Service& service, const Request& request) {
             return report_response(200, found_report(service, request));
         case Removal::cancelling:
             return report_response(202, found_report(service, request));
+        case Removal::pinned:
+            throw Problem(409, "The report is pinned: unpin it first.");
         case Removal::accepted:
             throw Problem(409, "The report is accepted in a baseline: forget it there first.");
     }
@@ -160,7 +130,7 @@ std::vector<Route> report_routes(Service& service) {
                {200, "It was queued and is cancelled", "application/json", "AnyReport", {"ETag"}, "QueuedReport"},
                {202, "It is running and will be cancelled", "application/json", "AnyReport", {"ETag"}, "QueuedReport"},
                {204, "It had ended and is deleted", "", ""},
-               {409, "It is accepted in a baseline", "application/problem+json", "Problem"}},
+               {409, "It is pinned, or accepted in a baseline", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return delete_report(service, request); });
     remove.headers = {{"If-Match", "the expected ETag of the report"}};
     remove.etag = [&service](const Request& request) { return report_etag(found_report(service, request)); };

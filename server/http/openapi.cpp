@@ -65,12 +65,18 @@ json parameters_of(const Route& route) {
                               {"example", described_path_value(name).second}});
     const json fields = schema_of(route.query);
     const json required = fields.value("required", json::array());
-    for (const Param& param : route.query)
+    for (const Param& param : route.query) {
+        json schema = fields["properties"][param.name];
+        if (std::ranges::find(route.repeatable, param.name) != route.repeatable.end()) {
+            schema.erase("default");
+            schema = {{"type", "array"}, {"items", schema}};
+        }
         parameters.push_back({{"name", param.name},
                               {"in", "query"},
                               {"description", param.summary},
                               {"required", std::ranges::find(required, json(param.name)) != required.end()},
-                              {"schema", fields["properties"][param.name]}});
+                              {"schema", schema}});
+    }
     for (const HeaderField& header : route.headers)
         parameters.push_back({{"name", header.name},
                               {"in", "header"},

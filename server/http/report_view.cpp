@@ -73,6 +73,8 @@ answer::ReportLine line_of(const ReportSummary& summary) {
     line.spec_sha256 = summary.spec_sha256;
     if (!summary.verdict.empty()) line.verdict = summary.verdict;
     line.preview = summary.preview;
+    line.device = summary.device;
+    line.pinned = summary.pinned;
     line.broken = summary.broken;
     return line;
 }

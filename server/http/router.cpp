@@ -65,17 +65,26 @@ Match Router::match(std::string_view method, std::string_view path) const {
     return match;
 }
 
-json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status) {
+json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status,
+                const std::vector<std::string>& repeatable) {
     const auto pairs = query_pairs(query);
     if (!pairs) throw Problem(400, "The query has a malformed percent escape.");
     json values = json::object();
     std::vector<FieldError> errors;
+    std::map<std::string, json> repeated;
+    for (const std::string& name : repeatable) repeated[name] = json::array();
     for (const auto& [name, text] : *pairs) {
+        if (const auto field = repeated.find(name); field != repeated.end()) {
+            if (!text.empty()) field->second.push_back(text);
+            read_fields({{name, text}}, "", {*std::ranges::find(fields, name, &Param::name)}, errors);
+            continue;
+        }
         if (values.contains(name)) errors.push_back({(json::json_pointer() / name).to_string(), "is given twice"});
         values[name] = typed(text, fields, name);
     }
     json read_values = read_fields(values, "", fields, errors);
     if (!errors.empty()) throw Problem(wrong_status, "The query is wrong.", errors);
+    for (const auto& [name, texts] : repeated) read_values[name] = texts;
     return read_values;
 }
 

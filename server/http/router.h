@@ -46,6 +46,7 @@ struct Route {
     /// The current ETag of the target; throws Problem (404) if there is no such target. Only for calls that change
     /// something: their preconditions are compared with it.
     std::function<std::string(const Request&)> etag;
+    std::vector<std::string> repeatable = {};  ///< texts of `query` that may be given several times: arrays of texts
     int wrong_query_status = 400;  ///< status of the answer to a query with wrong, missing or unknown fields
     std::string tag;               ///< its group in the OpenAPI document
 };
@@ -66,8 +67,10 @@ class Router {
     std::vector<Route> m_routes;
 };
 
-/// Reads `query` as `fields` describe it; numbers are given as text. Throws Problem (`wrong_status`) with every wrong
-/// field, or Problem (400) if it cannot be read at all.
-nlohmann::json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status = 400);
+/// Reads `query` as `fields` describe it; numbers are given as text. The fields in `repeatable` become arrays,
+/// without empty texts. Throws Problem (`wrong_status`) with every wrong field, or Problem (400) if it cannot be read
+/// at all.
+nlohmann::json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status = 400,
+                          const std::vector<std::string>& repeatable = {});
 
 }  // namespace sheer::http

@@ -18,6 +18,7 @@ std::vector<Topic> all_topics() {
         {{"Archive", "The list of reports, and their pictures"}, archive_routes},
         {{"Assets", "Uploaded textures, models and volumes"}, asset_routes},
         {{"Baselines", "Accepted reports, with which others are compared"}, baseline_routes},
+        {{"Pins", "Reports that are never deleted or pruned"}, pin_routes},
         {{"Catalog", "What this service offers: methods, scenes, metrics, ready-made specs, devices"}, catalog_routes},
         {{"Health", "For probes"}, health_routes}};
 }

@@ -50,6 +50,7 @@ std::vector<Route> pixel_routes(Service& service);     ///< one pixel of a repor
 std::vector<Route> archive_routes(Service& service);   ///< the list of reports, the pictures
 std::vector<Route> asset_routes(Service& service);     ///< uploaded files
 std::vector<Route> baseline_routes(Service& service);  ///< accepted reports
+std::vector<Route> pin_routes(Service& service);       ///< pinned reports
 std::vector<Route> catalog_routes(Service& service);   ///< /methods, /scenes, /devices
 std::vector<Route> health_routes(Service& service);    ///< /healthz, /readyz
 std::vector<Route> page_routes();                      ///< the page at /
@@ -59,6 +60,9 @@ Router make_router(Service& service);
 
 /// The schema of what PUT /baselines/{name} takes.
 nlohmann::json acceptance_schema();
+
+/// The schema of what PUT /reports/{id}/pin takes.
+nlohmann::json pin_schema();
 
 /// A group of calls in the OpenAPI document.
 struct Tag {

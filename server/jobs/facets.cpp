@@ -21,6 +21,7 @@ std::string text_at(const json& document, const char* pointer) {
 }  // namespace
 
 Facets facets_of(const json& spec) {
+    if (!spec.is_object()) return {};
     Facets facets{.title = text_at(spec, "/title"), .scene = text_at(spec, "/scene/type")};
     for (const json& method : at(spec, "/methods")) {
         std::string id = method.is_string() ? method.get<std::string>() : text_at(method, "/id");
@@ -30,6 +31,10 @@ Facets facets_of(const json& spec) {
     for (const auto& [name, value] : tags.items())
         if (tags.is_object() && value.is_string()) facets.tags[name] = value;
     return facets;
+}
+
+std::string renderer_of(const json& report) {
+    return report.is_object() ? text_at(report, "/device/renderer") : std::string();
 }
 
 json preview_of(const json& report) {

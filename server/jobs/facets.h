@@ -20,4 +20,7 @@ Facets facets_of(const nlohmann::json& spec);
 /// has none.
 nlohmann::json preview_of(const nlohmann::json& report);
 
+/// The name of the device in a done report; "" if it has none.
+std::string renderer_of(const nlohmann::json& report);
+
 }  // namespace sheer

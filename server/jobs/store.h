@@ -4,8 +4,10 @@
 #include "server/jobs/assets.h"
 #include "server/jobs/baselines.h"
 #include "server/jobs/blobs.h"
+#include "server/jobs/care.h"
 #include "server/jobs/change_watch.h"
 #include "server/jobs/job_queue.h"
+#include "server/jobs/pins.h"
 #include "server/jobs/readiness.h"
 #include "server/jobs/report_archive.h"
 
@@ -21,7 +23,9 @@ class Store {
     virtual Blobs& blobs() = 0;
     virtual Assets& assets() = 0;
     virtual Baselines& baselines() = 0;
+    virtual Pins& pins() = 0;
     virtual Readiness& readiness() = 0;
+    virtual Care& care() = 0;
     virtual std::unique_ptr<ChangeWatch> watch() = 0;
 };
 

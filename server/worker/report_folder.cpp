@@ -25,13 +25,6 @@ report::Report read_report(const fs::path& file) {
     }
 }
 
-void check_name(const BlobName& blob) {
-    if (!is_sha256(blob.sha256)) throw StoreError("a picture's sha256 is none: " + blob.sha256);
-    // A blob is served under the service's own origin, so it must not be a page.
-    if (!blob.media_type.starts_with("image/") || blob.media_type.starts_with("image/svg"))
-        throw StoreError("a picture has the media type " + blob.media_type);
-}
-
 }  // namespace
 
 std::vector<BlobName> named_blobs(const report::Report& report) {
@@ -40,6 +33,12 @@ std::vector<BlobName> named_blobs(const report::Report& report) {
         if (std::ranges::find(blobs, picture.sha256, &BlobName::sha256) == blobs.end())
             blobs.push_back({picture.sha256, picture.media_type});
     return blobs;
+}
+
+void check_picture_name(const BlobName& blob) {
+    if (!is_sha256(blob.sha256)) throw StoreError("a picture's sha256 is none: " + blob.sha256);
+    if (!blob.media_type.starts_with("image/") || blob.media_type.starts_with("image/svg"))
+        throw StoreError("a picture has the media type " + blob.media_type);
 }
 
 FinishedReport read_report_folder(const fs::path& folder, const Lease& lease, std::int64_t finished_ms) {
@@ -56,7 +55,7 @@ FinishedReport read_report_folder(const fs::path& folder, const Lease& lease, st
     finished.blobs = named_blobs(report);
     finished.read_blob = [folder](const std::string& sha256) { return read_file(folder / sha256, max_picture_bytes); };
     for (const BlobName& blob : finished.blobs) {
-        check_name(blob);
+        check_picture_name(blob);
         if (sha256_hex(finished.read_blob(blob.sha256)) != blob.sha256)
             throw StoreError("picture " + blob.sha256 + " has other bytes");
     }

@@ -10,6 +10,10 @@ namespace sheer {
 /// The file of every picture that `report` names, each once.
 std::vector<BlobName> named_blobs(const report::Report& report);
 
+/// Throws StoreError if a picture's hash is none, or its type is not an image's: a blob is served under the service's
+/// own origin, so it must not be a page.
+void check_picture_name(const BlobName& blob);
+
 /// Reads the output of `sheer render --out folder`, in which each picture is `folder`/<sha256>, as the report of this
 /// job. Throws StoreError if it is not valid: a missing file, a picture whose bytes have another hash, a media type
 /// that is not an image's, a report.json that is not a report.

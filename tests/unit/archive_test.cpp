@@ -31,7 +31,7 @@ TEST_P(ArchiveTest, AQueuedReportIsFoundWithItsSpec) {
     EXPECT_EQ(record->status, Status::queued);
     EXPECT_EQ(record->created_ms, m_now_ms);
     EXPECT_EQ(json::parse(record->spec)["title"], "first");
-    EXPECT_EQ(record->spec_sha256, "hash of first");
+    EXPECT_EQ(record->spec_sha256, sha256_hex(record->spec));
     EXPECT_FALSE(record->finished_ms);
     EXPECT_FALSE(m_reports.find("01900000-0000-7000-8000-000000000000"));
 }
@@ -85,21 +85,81 @@ TEST_P(ArchiveTest, TheListIsFiltered) {
     submit("Alpha 100%", {{"tags", {{"branch", "main"}}}});
     submit("beta", {{"scene", {{"type", "layers"}}}, {"tags", {{"branch", "topic"}}}});
     submit("gamma", {{"methods", {{{"id", "f2b"}}, {{"id", "b2f"}}}}});
-    EXPECT_EQ(m_reports.list({.q = "a", .limit = 1}).count, 3);
+    EXPECT_EQ(m_reports.list({.q = "a", .limit = 1}).count, 1);
     EXPECT_EQ(m_reports.list({.q = "topi"}).count, 1);
     EXPECT_EQ(titles({.q = "ALPHA"}), (Titles{"Alpha 100%"}));
     EXPECT_EQ(titles({.q = "topi"}), (Titles{"beta"}));
-    EXPECT_EQ(titles({.q = "0%"}), (Titles{"Alpha 100%"}));
-    EXPECT_EQ(titles({.q = "%"}), (Titles{"Alpha 100%"}));  // no wildcard
-    EXPECT_EQ(titles({.tag = "branch"}), (Titles{"beta", "Alpha 100%"}));
-    EXPECT_EQ(titles({.tag = "branch:main"}), (Titles{"Alpha 100%"}));
-    EXPECT_EQ(titles({.tag = "branch:mai"}), Titles{});
-    EXPECT_EQ(titles({.method = "F2B"}), (Titles{"gamma"}));
+    EXPECT_EQ(titles({.q = "100% alp"}), (Titles{"Alpha 100%"}));
+    EXPECT_EQ(titles({.q = "lpha"}), Titles{});
+    submit("antidisestablishment");
+    EXPECT_EQ(titles({.q = "antidisestab"}), (Titles{"antidisestablishment"}));
+    EXPECT_EQ(titles({.q = "antidisestax"}), Titles{});
+    m_reports.remove(m_reports.list({.q = "antidisestab"}).reports.at(0).id);
+    EXPECT_EQ(titles({.q = "main alpha"}), (Titles{"Alpha 100%"}));
+    EXPECT_EQ(titles({.q = "%"}), Titles{});  // neither a word nor a wildcard
+    EXPECT_EQ(titles({.tags = {"branch"}}), (Titles{"beta", "Alpha 100%"}));
+    EXPECT_EQ(titles({.tags = {"branch:main"}}), (Titles{"Alpha 100%"}));
+    EXPECT_EQ(titles({.tags = {"branch:mai"}}), Titles{});
+    EXPECT_EQ(titles({.methods = {"F2B"}}), (Titles{"gamma"}));
     EXPECT_EQ(titles({.scene = "layers"}), (Titles{"beta"}));
     lease();
     EXPECT_EQ(titles({.status = Status::running}), (Titles{"Alpha 100%"}));
-    EXPECT_EQ(titles({.method = "b2f", .status = Status::queued}), (Titles{"gamma", "beta"}));
+    EXPECT_EQ(titles({.methods = {"b2f"}, .status = Status::queued}), (Titles{"gamma", "beta"}));
     EXPECT_EQ(titles({.q = "' OR 1 --"}), Titles{});
+    EXPECT_EQ(titles({.methods = {"f2b", "b2f"}}), (Titles{"gamma"}));
+    EXPECT_EQ(titles({.tags = {"branch", "branch:topic"}, .scene = "layers"}), (Titles{"beta"}));
+    EXPECT_EQ(titles({.tags = {"branch:main", "branch:topic"}}), Titles{});
+    EXPECT_EQ(titles({.q = "b", .scene = "layers"}), (Titles{"beta"}));
+    EXPECT_EQ(titles({.spec_sha256 = sha256_of("gamma")}), (Titles{"gamma"}));
+}
+
+TEST_P(ArchiveTest, IsSearchedByTimeVerdictAndDevice) {
+    const std::int64_t begin_ms = m_now_ms;
+    for (const auto& [title, verdict, device] :
+         std::vector<std::array<std::string, 3>>{{"one", "passed", "llvmpipe (LLVM 15.0.6, 256 bits)"},
+                                                 {"two", "failed", "NVIDIA H100"},
+                                                 {"three", "passed", "NVIDIA H100"}}) {
+        submit(title);
+        const Lease job = lease();
+        FinishedReport report = finished(job, title);
+        report.report["verdict"] = verdict;
+        report.report["device"] = {{"renderer", device}};
+        ASSERT_TRUE(m_queue.commit(job, report));
+    }
+    EXPECT_EQ(titles({.since_ms = begin_ms + 2}), (Titles{"three", "two"}));
+    EXPECT_EQ(titles({.until_ms = begin_ms + 2}), (Titles{"two", "one"}));
+    EXPECT_EQ(titles({.since_ms = begin_ms + 2, .until_ms = begin_ms + 2}), (Titles{"two"}));
+    EXPECT_EQ(titles({.verdict = "passed"}), (Titles{"three", "one"}));
+    EXPECT_EQ(titles({.device = "nvidia", .verdict = "passed"}), (Titles{"three"}));
+    EXPECT_EQ(titles({.device = "NVIDIA H100"}), (Titles{"three", "two"}));
+    EXPECT_EQ(titles({.device = "llvmpipe"}), (Titles{"one"}));
+    EXPECT_EQ(titles({.device = "llvm"}), (Titles{"one"}));
+    EXPECT_EQ(titles({.device = "nvid"}), Titles{});
+    EXPECT_EQ(m_reports.list({}).reports.at(0).device, "NVIDIA H100");
+    EXPECT_EQ(m_reports.remove(m_reports.list({}).reports.at(0).id), Removal::deleted);
+    EXPECT_EQ(titles({.device = "nvidia"}), (Titles{"two"}));
+    EXPECT_EQ(m_reports.list({.device = "nvidia"}).count, 1);
+    EXPECT_EQ(m_reports.list({}).count, 2);
+    EXPECT_TRUE(m_reports.list({}).count_is_exact);
+}
+
+TEST_P(ArchiveTest, APinnedReportIsNotDeleted) {
+    const std::string id = make_done("kept", "picture"), queued = submit("queued");
+    Pins& pins = m_store.pins();
+    EXPECT_EQ(pins.pin({"01900000-0000-7000-8000-000000000000"}), Pins::Pinning::not_found);
+    EXPECT_EQ(pins.pin({queued}), Pins::Pinning::not_final);
+    EXPECT_EQ(pins.pin({id, 0, "me", "the first"}), Pins::Pinning::added);
+    m_now_ms += 5;
+    EXPECT_EQ(pins.pin({id, 0, "you", "the best"}), Pins::Pinning::renewed);
+    EXPECT_EQ(pins.find(id)->by, "you");
+    EXPECT_EQ(pins.find(id)->pinned_ms, m_now_ms);
+    EXPECT_TRUE(m_reports.list({.status = Status::done}).reports.at(0).pinned);
+    EXPECT_FALSE(m_reports.list({.status = Status::queued}).reports.at(0).pinned);
+    EXPECT_EQ(m_reports.remove(id), Removal::pinned);
+    EXPECT_TRUE(pins.unpin(id));
+    EXPECT_FALSE(pins.unpin(id));
+    EXPECT_FALSE(pins.find(id));
+    EXPECT_EQ(m_reports.remove(id), Removal::deleted);
 }
 
 TEST_P(ArchiveTest, ALineOfTheListSaysWhatTheReportIsAbout) {
@@ -204,6 +264,12 @@ TEST(ReportIds, OtherTextsAreNotIds) {
 TEST(Clock, TimesAreWrittenInUtc) {
     EXPECT_EQ(utc_text(0), "1970-01-01T00:00:00.000Z");
     EXPECT_EQ(utc_text(1'709'210'096'007), "2024-02-29T12:34:56.007Z");
+    EXPECT_EQ(time_of_utc_text("2024-02-29T12:34:56.007Z"), 1'709'210'096'007);
+    EXPECT_EQ(time_of_utc_text("2024-02-29T12:34:56Z"), 1'709'210'096'000);
+    EXPECT_EQ(time_of_utc_text("2024-02-29"), 1'709'164'800'000);
+    for (const char* wrong : {"", "2023-02-29", "2024-02-29T24:00:00Z", "2024-02-29T12:34:56", "2024-02-29T12:34:56+0Z",
+                              "yesterday", "2024-13-01"})
+        EXPECT_FALSE(time_of_utc_text(wrong)) << wrong;
 }
 
 }  // namespace

@@ -115,7 +115,10 @@ TEST_F(DamagedFilesTest, ABrokenRowLeavesTheRestOfTheList) {
     m_assets.add(asset, "c");
     SQLite::Database database(m_data.database().string(), SQLite::OPEN_READWRITE);
     database.exec("DROP TRIGGER reports_final");
-    database.exec("UPDATE reports SET preview = '{\"sha', report = '{\"id\": ' WHERE title = 'broken'");
+    database.exec("UPDATE reports SET preview = '{\"sha' WHERE title = 'broken'");
+    database.exec(
+        "DROP TRIGGER documents_final; UPDATE documents SET packed = substr(packed, 1, 20) "
+        "WHERE report_id = (SELECT id FROM reports WHERE title = 'broken')");
     database.exec("UPDATE assets SET facts = '[1'");
     const http::Response list = get("/api/v1/reports");
     ASSERT_EQ(list.status, 200);

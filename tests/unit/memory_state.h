@@ -48,6 +48,7 @@ struct MemoryState {
     std::map<std::string, memory_store::KeptAsset> assets;
     std::uint64_t assets_added = 0;
     std::vector<AcceptedReport> accepted;
+    std::map<std::string, Pin> pins;
     std::optional<std::int64_t> last_rendered_ms;
 };
 

@@ -6,6 +6,7 @@
 
 #include "memory_state.h"
 #include "renderer/core/sha256.h"
+#include "server/jobs/search.h"
 
 namespace sheer::test::memory_store {
 
@@ -42,13 +43,35 @@ bool has_tag(const json& tags, const std::string& wanted) {
     return found != tags.end() && (colon == std::string::npos || *found == wanted.substr(colon + 1));
 }
 
+/// Whether each word of `q` begins a word of the title or of a tag's value.
+bool has_words(const Job& job, const std::string& q) {
+    if (q.empty()) return true;
+    std::string all = job.facets.title;
+    for (const json& value : job.facets.tags) all += " " + value.get<std::string>();
+    const std::vector<std::string> wanted = words_of(q), there = words_of(all);
+    return !wanted.empty() && std::ranges::all_of(wanted, [&](const std::string& word) {
+        return std::ranges::any_of(there, [&](const std::string& each) { return each.starts_with(word); });
+    });
+}
+
 bool fits(const Job& job, const ListFilter& filter) {
-    const auto has_text = [&](const json& value) { return contains(value.get<std::string>(), filter.q); };
-    return (filter.q.empty() || has_text(job.facets.title) || std::ranges::any_of(job.facets.tags, has_text)) &&
-           (filter.tag.empty() || has_tag(job.facets.tags, filter.tag)) &&
-           (filter.method.empty() || std::ranges::count(job.facets.methods, lowered(filter.method)) > 0) &&
+    const auto has_method = [&](const std::string& id) {
+        return std::ranges::count(job.facets.methods, lowered(id)) > 0;
+    };
+    const bool is_done = job.record.status == Status::done;
+    const json report = is_done ? json::parse(job.record.report) : json::object();
+    const std::string device = lowered(renderer_of(report));
+    return has_words(job, filter.q) &&
+           std::ranges::all_of(filter.tags, [&](const auto& tag) { return has_tag(job.facets.tags, tag); }) &&
+           std::ranges::all_of(filter.methods, has_method) &&
            (filter.scene.empty() || job.facets.scene == filter.scene) &&
-           (!filter.status || job.record.status == *filter.status);
+           (filter.device.empty() || device == lowered(filter.device) ||
+            std::ranges::count(words_of(device), lowered(filter.device)) > 0) &&
+           (filter.verdict.empty() || report.value("verdict", "") == filter.verdict) &&
+           (filter.spec_sha256.empty() || job.record.spec_sha256 == filter.spec_sha256) &&
+           (!filter.status || job.record.status == *filter.status) &&
+           job.record.created_ms >= filter.since_ms.value_or(INT64_MIN) &&
+           job.record.created_ms <= filter.until_ms.value_or(INT64_MAX);
 }
 
 ReportSummary summary_of(const Job& job) {
@@ -65,6 +88,7 @@ ReportSummary summary_of(const Job& job) {
     if (record.status != Status::done) return summary;
     const json report = json::parse(record.report);
     summary.verdict = report.value("verdict", "");
+    summary.device = renderer_of(report);
     summary.preview = preview_of(report);
     return summary;
 }
@@ -90,10 +114,13 @@ class Reports : public ReportArchive {
         ReportPage page;
         for (auto each = state->jobs.rbegin(); each != state->jobs.rend(); ++each) {
             if (!fits(each->second, filter)) continue;
-            ++page.count;
+            page.count_is_exact = page.count < max_exact_count;
+            if (page.count_is_exact) ++page.count;
             if (page.more || (!filter.before_id.empty() && each->first >= filter.before_id)) continue;
             page.more = static_cast<int>(page.reports.size()) == filter.limit;
-            if (!page.more) page.reports.push_back(summary_of(each->second));
+            if (page.more) continue;
+            page.reports.push_back(summary_of(each->second));
+            page.reports.back().pinned = state->pins.contains(each->first);
         }
         return page;
     }
@@ -112,6 +139,7 @@ class Reports : public ReportArchive {
             return Removal::cancelling;
         }
         if (std::ranges::count(state->accepted, id, &AcceptedReport::report_id) > 0) return Removal::accepted;
+        if (state->pins.contains(id)) return Removal::pinned;
         state->jobs.erase(found);
         std::erase_if(state->blobs, [&](const auto& blob) { return !is_named(state, blob.first); });
         room_was_made(state);
@@ -234,6 +262,43 @@ class Named : public Baselines {
     const Base& m_base;
 };
 
+class Kept : public Pins {
+  public:
+    explicit Kept(const Base& base) : m_base(base) {}
+
+    Pinning pin(const Pin& pin) override {
+        const Writing state(*m_base.state);
+        const auto found = state->jobs.find(pin.report_id);
+        if (found == state->jobs.end()) return Pinning::not_found;
+        if (!is_final(found->second.record.status)) return Pinning::not_final;
+        Pin now = pin;
+        now.pinned_ms = m_base.clock();
+        return state->pins.insert_or_assign(pin.report_id, now).second ? Pinning::added : Pinning::renewed;
+    }
+
+    std::optional<Pin> find(const std::string& report_id) override {
+        const Reading state(*m_base.state);
+        const auto found = state->pins.find(report_id);
+        return found == state->pins.end() ? std::nullopt : std::optional(found->second);
+    }
+
+    bool unpin(const std::string& report_id) override { return Writing(*m_base.state)->pins.erase(report_id) > 0; }
+
+  private:
+    const Base& m_base;
+};
+
+/// The care of files and databases has its own tests.
+class NoCare : public Care {
+  public:
+    CheckResult check(bool) override { return {}; }
+    Garbage collect_garbage() override { return {}; }
+    BackupResult back_up(const std::filesystem::path&) override { throw StoreError("there is nothing to copy"); }
+    std::vector<StoredReport> stored_reports() override { return {}; }
+    Import import_report(const ImportedReport&) override { throw StoreError("nothing can be imported"); }
+    StoreSize size() override { return {}; }
+};
+
 class Health : public Readiness {
   public:
     explicit Health(const Base& base) : m_base(base) {}
@@ -277,7 +342,9 @@ struct MemoryStore::Parts {
     memory_store::Pictures blobs{base};
     memory_store::Uploads assets{base};
     memory_store::Named baselines{base};
+    memory_store::Kept pins{base};
     memory_store::Health readiness{base};
+    memory_store::NoCare care;
 };
 
 MemoryStore::MemoryStore(std::shared_ptr<MemoryState> state, LeaseRules rules, ClockMs clock)
@@ -300,8 +367,14 @@ Assets& MemoryStore::assets() {
 Baselines& MemoryStore::baselines() {
     return m_parts->baselines;
 }
+Pins& MemoryStore::pins() {
+    return m_parts->pins;
+}
 Readiness& MemoryStore::readiness() {
     return m_parts->readiness;
+}
+Care& MemoryStore::care() {
+    return m_parts->care;
 }
 std::unique_ptr<ChangeWatch> MemoryStore::watch() {
     return std::make_unique<memory_store::Watch>(m_parts->base.state);

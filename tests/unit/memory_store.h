@@ -23,7 +23,9 @@ class MemoryStore : public Store {
     Blobs& blobs() override;
     Assets& assets() override;
     Baselines& baselines() override;
+    Pins& pins() override;
     Readiness& readiness() override;
+    Care& care() override;
     std::unique_ptr<ChangeWatch> watch() override;
 
   private:

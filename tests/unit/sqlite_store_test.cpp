@@ -1,9 +1,11 @@
 // Properties of only the SQLite store.
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <array>
 #include <chrono>
 #include <future>
 
+#include "embedded_server_files.h"
 #include "store_fixture.h"
 
 namespace sheer::test::sqlite_store_test {
@@ -25,6 +27,7 @@ TEST_F(SqliteStoreTest, AFinalReportCannotBeChanged) {
     EXPECT_THROW(database.exec("UPDATE reports SET report = '{}'"), SQLite::Exception);
     EXPECT_THROW(database.exec("UPDATE reports SET status = 'queued', finished_ms = NULL, report = NULL"),
                  SQLite::Exception);
+    EXPECT_THROW(database.exec("UPDATE documents SET packed = x'00'"), SQLite::Exception);
     EXPECT_EQ(json::parse(m_reports.find(id)->report)["verdict"], "passed");
 }
 
@@ -47,22 +50,55 @@ TEST_F(SqliteStoreTest, AFileThatIsNotADatabaseIsAnError) {
     EXPECT_THROW(SqliteStore(folder.file("file", ""), m_rules, m_clock), StoreError);
 }
 
-TEST_F(SqliteStoreTest, AnArchiveOfVersionOneIsBroughtUpToDate) {
-    const std::string id = submit("kept");
-    {
-        SQLite::Database database(m_data.database().string(), SQLite::OPEN_READWRITE);
-        database.exec(
-            "DROP TABLE baselines; DROP TABLE assets; DROP INDEX reports_that_died; DROP INDEX reports_set_back");
-        for (const char* column : {"setbacks", "not_before_ms", "lacks_room", "died_of"})
-            database.exec(std::string("ALTER TABLE reports DROP COLUMN ") + column);
-        database.exec("PRAGMA user_version = 1; PRAGMA application_id = 0");
-    }
-    SqliteStore again(m_data.root, m_rules, m_clock);
-    EXPECT_TRUE(again.reports().find(id));
-    EXPECT_TRUE(again.assets().list(1).empty());
-    EXPECT_TRUE(again.baselines().list("").empty());
-    EXPECT_TRUE(again.queue().lease("worker"));
+/// An archive of the version that the first `version` migrations make, with a done, a failed and a queued report.
+void make_old_archive(const std::filesystem::path& folder, int version) {
+    constexpr std::array files = {"schema.sql", "assets.sql", "retries.sql", "baselines.sql"};
+    std::filesystem::create_directories(folder);
+    SQLite::Database database((folder / "archive.sqlite").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    for (int i = 0; i < version; ++i)
+        for (const EmbeddedFile& file : embedded_server_files())
+            if (file.path == files[static_cast<std::size_t>(i)]) database.exec(std::string(file.bytes));
+    database.exec("PRAGMA user_version = " + std::to_string(version));
+    const std::string insert =
+        "INSERT INTO reports (id, status, created_ms, finished_ms, title, scene, spec_sha256, verdict, error_title, "
+        "error_detail, spec, report) VALUES ";
+    database.exec(insert + R"(('01900000-0000-7000-8000-000000000001', 'done', 1, 2, 'old one', 'quads', 'hash',
+        'passed', NULL, NULL, '{"title": "old one", "scene": {"type": "quads"}, "methods": [{"id": "b2f"}],
+        "tags": {"branch": "main"}}', '{"id": "old", "verdict": "passed", "device": {"renderer": "Renderer X"}}'))");
+    database.exec(insert + R"(('01900000-0000-7000-8000-000000000002', 'failed', 1, 2, 'no', 'quads', 'hash',
+        NULL, 'title', 'detail', '{"title": "no"}', NULL))");
+    database.exec(insert + R"(('01900000-0000-7000-8000-000000000003', 'queued', 1, NULL, 'next', 'quads', 'hash',
+        NULL, NULL, NULL, '{"title": "next"}', NULL))");
+    database.exec(
+        "INSERT INTO report_methods VALUES ('01900000-0000-7000-8000-000000000001', 0, 'b2f');"
+        "INSERT INTO report_tags VALUES ('01900000-0000-7000-8000-000000000001', 'branch', 'main')");
 }
+
+class OldArchiveTest : public testing::TestWithParam<int> {};
+
+TEST_P(OldArchiveTest, IsBroughtUpToDate) {
+    const TemporaryFolder folder;
+    make_old_archive(folder.path(), GetParam());
+    SqliteStore store(folder.path(), {}, system_now_ms);
+    const std::string done = "01900000-0000-7000-8000-000000000001";
+    const auto record = store.reports().find(done);
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->status, Status::done);
+    EXPECT_EQ(record->report, R"({"id": "old", "verdict": "passed", "device": {"renderer": "Renderer X"}})");
+    EXPECT_EQ(store.reports().find("01900000-0000-7000-8000-000000000002")->error->detail, "detail");
+    EXPECT_EQ(store.reports().list({}).count, 3);
+    EXPECT_EQ(
+        store.reports()
+            .list({.q = "old", .tags = {"branch:main"}, .methods = {"b2f"}, .device = "renderer", .verdict = "passed"})
+            .reports.at(0)
+            .id,
+        done);
+    EXPECT_TRUE(store.assets().list(1).empty());
+    EXPECT_EQ(store.baselines().accept({"main", done, 0, "", ""}), Baselines::Acceptance::added);
+    EXPECT_EQ(store.queue().lease("worker")->id, "01900000-0000-7000-8000-000000000003");
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryVersion, OldArchiveTest, testing::Range(1, 5));
 
 TEST_F(SqliteStoreTest, FilesAreRemovedWithTheLastReportThatNamesThem) {
     const std::string first = make_done("first", "shared"), second = make_done("second", "shared");

@@ -53,10 +53,14 @@ class StoreFixture {
         m_now_ms += 1;
         nlohmann::json spec = {{"title", title}, {"scene", {{"type", "quads"}}}, {"methods", {{{"id", "b2f"}}}}};
         spec.update(more);
-        NewReport report{.id = m_ids.next(), .spec = spec.dump(), .spec_sha256 = "hash of " + title};
+        NewReport report{.id = m_ids.next(), .spec = spec.dump()};
+        report.spec_sha256 = sha256_hex(report.spec);
         EXPECT_EQ(m_queue.submit(report, 100).outcome, SubmitResult::Outcome::created);
         return report.id;
     }
+
+    /// Of the spec of the only report with this title.
+    std::string sha256_of(const std::string& title) { return m_reports.list({.q = title}).reports.at(0).spec_sha256; }
 
     Lease lease(const std::string& owner = "worker") {
         const auto leased = m_queue.lease(owner);

@@ -60,7 +60,7 @@ TEST_F(WorkerTest, CommitsTheRenderersOutput) {
     EXPECT_EQ(report["created_at"], utc_text(m_now_ms));
     EXPECT_EQ(report["finished_at"], utc_text(m_now_ms));
     EXPECT_EQ(report["spec"]["title"], "title");
-    EXPECT_EQ(report["spec_sha256"], "hash of title");
+    EXPECT_EQ(report["spec_sha256"], sha256_hex(report["spec"].dump()));
     EXPECT_EQ(picture(sha256), "picture");
 }
 
