@@ -174,6 +174,11 @@ export async function list_reports(query, signal) {
   return (await call(`/reports?${new URLSearchParams(filled)}`, { signal })).body;
 }
 
+/** A number of a spec's reports over time; `query` as in GET /trends. */
+export async function get_trend(query, signal) {
+  return (await call(`/trends?${new URLSearchParams(query)}`, { signal })).body;
+}
+
 /**
  * Follows a report until it is final. `on_progress({progress, stage, status})` is called for each step,
  * `on_connection(connected)` when the connection is lost or back, `on_end()` once. Returns a function that stops listening.

@@ -8,6 +8,7 @@ import { el, set_children } from "./dom.js";
 import { accept_drops } from "./drop.js";
 import { show_report } from "./report_page.js";
 import { show_start } from "./start_view.js";
+import { show_trend } from "./trend_view.js";
 
 const ROUTES = [
   [/^#?\/?$/, show_start],
@@ -15,6 +16,7 @@ const ROUTES = [
   [/^#\/reports\/?$/, show_archive],
   [/^#\/reports\/([^/]+)$/, show_report],
   [/^#\/baselines\/?$/, show_baselines],
+  [/^#\/trends\/([^/]+)$/, show_trend],
   [/^#\/diff\/([^/]+)\/([^/]+)$/, show_diff],
 ];
 
@@ -55,7 +57,7 @@ class Page {
 
   #mark_current(path) {
     for (const link of document.querySelectorAll("header.site nav a")) {
-      const of_reports = path.startsWith("#/reports") || path.startsWith("#/diff");
+      const of_reports = path.startsWith("#/reports") || path.startsWith("#/diff") || path.startsWith("#/trends");
       const own = ["#/new", "#/baselines"].find((one) => path.startsWith(one));
       const here = of_reports ? "#/reports" : (own ?? "#/");
       if (link.getAttribute("href") === here) link.setAttribute("aria-current", "page");

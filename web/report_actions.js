@@ -72,6 +72,7 @@ export function report_actions(report, link, on_error) {
   return [
     run_again_button(report, on_error),
     edit_button(report),
+    el("a", { class: "button", href: `#/trends/${encodeURIComponent(report.spec_sha256)}` }, "Trend of this spec"),
     copy_button("Copy link", link),
     menu("⋯", "More", [
       el("a", { class: "button", href: path }, "report.json"),

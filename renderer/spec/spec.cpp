@@ -99,6 +99,10 @@ std::vector<Param> spec_fields() {
             "on_undecided",
             "what a check counts as that is undecided when the time is over: neutral is told and fails nothing",
             "neutral", {"pass", "fail", "neutral"}),
+        Param::boolean("reuse",
+                       "the service answers with a done report of the same spec, program and device if it has one; not "
+                       "a part of what is compared",
+                       false),
         optional_text("against",
                       "baseline:NAME or the id of a report: the service compares pictures and times with that report"),
         any("under_test", "JSON pointers into the spec of what may differ from the report of `against`", json::array(),
@@ -136,6 +140,8 @@ class SpecReader {
         const json& timing = normalised["timing"];
         spec.timing = {timing["warmup"], timing["rounds"], timing["max_seconds"]};
         read_suite(spec);
+        // A wish of the sender, not a part of what is compared.
+        normalised.erase("reuse");
         read_against(spec);
         if (m_errors.empty()) {
             read_points(spec);

@@ -113,6 +113,8 @@ json normalised_spec_schema() {
     add_own_fields(schema, normalised_schema_of,
                    with_label(method_schemas(normalised_schema_of), normalised_schema_of, true));
     schema["properties"]["reference"]["oneOf"] = method_schemas(normalised_schema_of);
+    schema["properties"].erase("reuse");
+    std::erase(schema["required"].get_ref<json::array_t&>(), json("reuse"));
     json baseline = label_schema();
     baseline["description"] = "label of the method with which times are compared";
     schema["properties"]["baseline"] = baseline;

@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::uint64_t kibibyte = 1024, mebibyte = 1024 * kibibyte;
 
-/// A deletion writes some twenty pages to SQLite's log before it frees anything.
+/// A deletion writes some fifty pages to SQLite's log before it frees anything.
 std::uint64_t reserve_bytes(const DiskSpace& space) {
-    return std::clamp<std::uint64_t>(space.total_bytes / 16, 96 * kibibyte, 4 * mebibyte);
+    return std::clamp<std::uint64_t>(space.total_bytes / 16, 256 * kibibyte, 4 * mebibyte);
 }
 
 }  // namespace

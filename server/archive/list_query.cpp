@@ -91,11 +91,24 @@ ListSql ListQuery::matching(Range places) const {
     return sql;
 }
 
-ListSql ListQuery::page() const {
-    ListSql sql = matching({m_times.from, std::min(m_times.before, m_before_place)});
+ListSql ListQuery::newest(Range places, std::int64_t limit) const {
+    ListSql sql = matching(places);
     sql.text += m_by_words ? " ORDER BY d.rowid DESC LIMIT ?" : " ORDER BY d.place DESC LIMIT ?";
-    sql.values.emplace_back(std::int64_t{m_limit} + 1);
+    sql.values.emplace_back(limit);
     return sql;
+}
+
+ListSql ListQuery::page() const {
+    return newest({m_times.from, std::min(m_times.before, m_before_place)}, std::int64_t{m_limit} + 1);
+}
+
+ListSql ListQuery::first_places() const {
+    return newest(m_times, max_exact_count + 1);
+}
+
+bool ListQuery::counts_by_reading() const {
+    const bool is_at_any_time = m_times.from == 0 && m_times.before == INT64_MAX;
+    return m_matches_nothing || !m_words.empty() || !is_at_any_time || m_facets.size() > 1;
 }
 
 ListSql ListQuery::counting() const {
@@ -106,8 +119,7 @@ ListSql ListQuery::counting() const {
 }
 
 std::pair<std::int64_t, bool> ListQuery::count() const {
-    const bool is_at_any_time = m_times.from == 0 && m_times.before == INT64_MAX;
-    if (!m_matches_nothing && m_words.empty() && is_at_any_time && m_facets.size() < 2) {
+    if (!counts_by_reading()) {
         if (m_facets.size() == 1) return {m_rarest, true};
         return {m_database.execAndGet("SELECT sum(reports) FROM facets WHERE id <= 5").getInt64(), true};
     }

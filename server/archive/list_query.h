@@ -28,6 +28,10 @@ class ListQuery {
 
     /// The places of the page's reports, and one more if there is one.
     ListSql page() const;
+    /// Whether count() reads the reports, one by one.
+    bool counts_by_reading() const;
+    /// The places of max_exact_count reports, and one more if there is one, whatever `before_id`.
+    ListSql first_places() const;
     /// How many match, up to max_exact_count, and whether these are all.
     std::pair<std::int64_t, bool> count() const;
     /// The statement with which count() counts.
@@ -39,6 +43,7 @@ class ListQuery {
     };
 
     ListSql matching(Range places) const;
+    ListSql newest(Range places, std::int64_t limit) const;
     void find_facets(const ListFilter& filter);
 
     SQLite::Database& m_database;

@@ -4,6 +4,7 @@
 
 #include "server/archive/sqlite_index.h"
 #include "server/archive/sqlite_steps.h"
+#include "server/archive/sqlite_trends.h"
 #include "server/jobs/facets.h"
 
 namespace sheer {
@@ -50,6 +51,7 @@ void finish_report(SQLite::Database& database, SqliteBlobs& blobs, const std::st
     SQLite::bind(document, id, finished.report.dump());
     document.exec();
     seal_report(database, id);
+    if (!finished.numbers.names.empty()) add_numbers(database, id, finished.numbers);
     add_outcome_to_index(database, id, finished.report.value("verdict", ""), renderer_of(finished.report));
     for (const BlobName& blob : finished.blobs) blobs.add(database, id, blob);
 }

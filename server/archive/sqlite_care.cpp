@@ -64,6 +64,7 @@ Garbage SqliteCare::collect_garbage() {
     Garbage garbage;
     m_archive.essential([&](SQLite::Database& database) {
         garbage.rows = database.exec("DELETE FROM facets WHERE id > 5 AND reports = 0");
+        garbage.rows += database.exec("DELETE FROM number_names WHERE id NOT IN (SELECT names FROM report_numbers)");
         garbage.rows += database.exec(
             "DELETE FROM blobs WHERE NOT EXISTS (SELECT 1 FROM report_blobs r WHERE r.sha256 = blobs.sha256)");
     });

@@ -56,6 +56,7 @@ CheckResult SqliteCheck::run() {
     part("the index", [&] { check_index(); });
     part("the baselines", [&] { check_seals("baselines", "report_id", "the acceptance of report"); });
     part("the pins", [&] { check_seals("pins", "report_id", "the pin of report"); });
+    part("the numbers", [&] { check_seals("report_numbers", "report_id", "the numbers of report"); });
     part("the pictures", [&] { check_blobs(); });
     part("the uploads", [&] { check_assets(); });
     part("the files", [&] {

@@ -2,9 +2,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "server/archive/list_query.h"
-#include "server/archive/sqlite_functions.h"
 #include "server/archive/sqlite_reports.h"
 #include "server/archive/sqlite_steps.h"
 
@@ -60,8 +60,16 @@ ReportPage SqliteReports::list(const ListFilter& filter) {
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::DEFERRED);
         const ListQuery query(database, filter);
         ReportPage page;
-        std::tie(page.count, page.count_is_exact) = query.count();
-        std::vector<std::int64_t> places = places_of(database, query.page());
+        std::vector<std::int64_t> places;
+        if (query.counts_by_reading() && filter.before_id.empty()) {
+            // The first page is the begin of what is counted.
+            places = places_of(database, query.first_places());
+            page.count_is_exact = static_cast<std::int64_t>(places.size()) <= max_exact_count;
+            page.count = std::min(static_cast<std::int64_t>(places.size()), max_exact_count);
+        } else {
+            std::tie(page.count, page.count_is_exact) = query.count();
+            places = places_of(database, query.page());
+        }
         page.more = places.size() > static_cast<std::size_t>(filter.limit);
         if (page.more) places.resize(static_cast<std::size_t>(filter.limit));
         SQLite::Statement line(

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "server/archive/report_rows.h"
+#include "server/archive/sqlite_activity.h"
 #include "server/archive/sqlite_steps.h"
 
 namespace sheer {
@@ -94,6 +95,7 @@ LeaseState SqliteQueue::heartbeat(const Lease& lease, double progress, const std
     return m_archive.write([&](SQLite::Database& database) {
         const LeaseState state = read_state(database, lease);
         if (state == LeaseState::lost) return state;
+        count_stage_time(database, m_archive, lease.id);
         SQLite::Statement renew(
             database,
             "UPDATE reports SET lease_until_ms = ?1, revision = revision + (progress <> ?2 OR stage "
@@ -224,9 +226,11 @@ void SqliteQueue::end_lost_leases(SQLite::Database& database, const std::string&
     while (rows.executeStep())
         all.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getInt(), rows.getColumn(2).getInt() != 0});
     rows.reset();
-    for (const Lost& lost : all)
+    for (const Lost& lost : all) {
+        count_lost_lease(database);
         end_attempt(database, m_archive, lost.id, worker_died,
                     after_lost_attempt(lost.attempts, lost.cancel_requested, m_archive.rules()));
+    }
 }
 
 }  // namespace sheer

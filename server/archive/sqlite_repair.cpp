@@ -85,8 +85,8 @@ class Quarantine {
     fs::path m_folder;
 };
 
-constexpr const char* dependent_tables[] = {
-    "documents", "report_seals", "report_methods", "report_tags", "report_blobs", "baselines", "pins"};
+constexpr const char* dependent_tables[] = {"documents",    "report_seals",   "report_methods", "report_tags",
+                                            "report_blobs", "report_numbers", "baselines",      "pins"};
 
 /// The rows of a report leave the database, once they are in the quarantine.
 std::string set_aside(SQLite::Database& database, Quarantine& quarantine, const std::string& id) {

@@ -1,5 +1,6 @@
 #include "server/archive/sqlite_store.h"
 
+#include "server/archive/sqlite_activity.h"
 #include "server/archive/sqlite_assets.h"
 #include "server/archive/sqlite_baselines.h"
 #include "server/archive/sqlite_blobs.h"
@@ -8,6 +9,7 @@
 #include "server/archive/sqlite_queue.h"
 #include "server/archive/sqlite_readiness.h"
 #include "server/archive/sqlite_reports.h"
+#include "server/archive/sqlite_trends.h"
 #include "server/archive/sqlite_watch.h"
 
 namespace sheer {
@@ -25,6 +27,8 @@ struct SqliteStore::Parts {
     SqliteBaselines baselines{archive};
     SqlitePins pins{archive};
     SqliteReadiness readiness{archive};
+    SqliteTrends trends{archive};
+    SqliteActivity activity{archive};
     SqliteCare care{archive, blobs, folder};
 };
 
@@ -56,6 +60,12 @@ Readiness& SqliteStore::readiness() {
 }
 Care& SqliteStore::care() {
     return m_parts->care;
+}
+Trends& SqliteStore::trends() {
+    return m_parts->trends;
+}
+Activity& SqliteStore::activity() {
+    return m_parts->activity;
 }
 std::unique_ptr<ChangeWatch> SqliteStore::watch() {
     return std::make_unique<SqliteWatch>(m_parts->folder);

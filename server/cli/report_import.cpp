@@ -73,6 +73,7 @@ ImportedReport read_report_zip(const fs::path& file) {
     if (sha256_hex(imported.spec) != imported.spec_sha256)
         throw UsageError(fmt::format("the spec of the report in {} has another hash", file.string()));
     imported.finished.finished_ms = time_of(report.finished_at, "finished_at", file);
+    imported.finished.numbers = numbers_of(report);
     imported.finished.blobs = named_blobs(report);
     imported.finished.read_blob = [file](const std::string& sha256) { return picture_in(file, sha256); };
     for (const BlobName& blob : imported.finished.blobs) {

@@ -11,7 +11,9 @@
 #include "server/children/supervisor.h"
 #include "server/cli/commands.h"
 #include "server/cli/service_config.h"
+#include "server/cli/service_manager.h"
 #include "server/http/application.h"
+#include "server/http/observer.h"
 #include "server/http/server.h"
 #include "server/http/service.h"
 #include "server/jobs/prune_timer.h"
@@ -37,12 +39,26 @@ SupervisorOptions supervisor_options(const ServiceConfig& config, const ServeOpt
     return supervised;
 }
 
+/// What can change while the service runs.
+struct Running {
+    http::Observer& observer;
+    PruneTimer& pruning;
+
+    void apply(const ServiceConfig& config) const {
+        spdlog::set_level(spdlog::level::from_str(config.log_level));
+        observer.log(config.access_log);
+        pruning.use(config.retention, config.retention_interval);
+    }
+};
+
 /// On SIGHUP: applies the settings that can change while the service runs. A wrong file changes nothing.
-void reload(const ServeOptions& options) {
+void reload(const ServeOptions& options, const Running& running) {
     try {
         const ServiceConfig config = config_of(options);
-        spdlog::set_level(spdlog::level::from_str(config.log_level));
-        spdlog::info("SIGHUP: the log level is {}; other settings take effect at the next start", config.log_level);
+        ServiceManager::reloading([&] { running.apply(config); });
+        spdlog::info(
+            "SIGHUP: the log level is {}; access_log and archive take effect now, other settings at the next start",
+            config.log_level);
     } catch (const std::exception& error) {
         spdlog::error("SIGHUP: the configuration is not reloaded: {}", error.what());
     }
@@ -74,6 +90,10 @@ void serve(const ServeOptions& options) {
     shading_options.child.memory_bytes = config.worker.memory_limit_bytes;
     shading_options.child.sandbox = config.sandbox;
     ShadingCheck shadings(shading_options);
+    http::Observer observer(&store);
+    PruneTimer pruning(store, system_now_ms);
+    const Running running{observer, pruning};
+    running.apply(config);
     http::Service service{
         .store = store,
         .ids = ids,
@@ -92,21 +112,26 @@ void serve(const ServeOptions& options) {
         .without_sandbox = note_sandbox(config.sandbox),
         .needs_sandbox = config.sandbox.required,
         .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); },
-        .path_prefix = config.path_prefix};
+        .path_prefix = config.path_prefix,
+        .metrics = [&observer] { return observer.metrics(); }};
     const http::Application application(
         http::make_guard(http::is_loopback(endpoint), config.allowed_hosts, config.cors_origins),
         http::make_router(service), http::PathPrefix(config.path_prefix));
-    http::Server server(endpoint, config.http,
-                        {.answer = [&](http::Request request) { return application.answer(std::move(request)); },
-                         .handling = [&](std::string_view method,
-                                         std::string_view target) { return application.handling(method, target); },
-                         .changes = store.watch(),
-                         .reload = [&options] { reload(options); }});
-    const PruneTimer pruning(store, config.retention, config.retention_interval, system_now_ms);
+    http::Server server(
+        endpoint, config.http,
+        {.answer = [&](http::Request request) { return observer.answer(application, std::move(request)); },
+         .handling = [&](std::string_view method,
+                         std::string_view target) { return application.handling(method, target); },
+         .changes = store.watch(),
+         .reload = [&options, &running] { reload(options, running); },
+         .alive = ServiceManager::alive,
+         .alive_interval = ServiceManager::watchdog_interval()});
     Supervisor workers(store.queue(), supervisor_options(config, options));
     fmt::print("Sheer listens on {}{}\n", http::url_of(server.endpoint()), config.path_prefix);
     std::fflush(stdout);
+    ServiceManager::ready("listens on " + http::url_of(server.endpoint()));
     server.run();
+    ServiceManager::stopping();
 }
 
 }  // namespace

@@ -111,6 +111,14 @@ Section general_settings() {
                           "events are all below it",
                           defaults.path_prefix, 200),
               [](ServiceConfig& config, const json& value) { config.path_prefix = value; }},
+         {Param::choice("access_log",
+                        "a line for each request: as text among the other messages of the level info, or as a line of "
+                        "JSON; reloaded on SIGHUP",
+                        "text", {"off", "text", "json"}),
+          [](ServiceConfig& config, const json& value) {
+              using enum http::AccessLog;
+              config.access_log = value == "off" ? off : value == "json" ? http::AccessLog::json : text;
+          }},
              {Param::choice("log_level", "least severe messages that are logged; reloaded on SIGHUP",
                             defaults.log_level, {"debug", "info", "warning", "error"}),
               [](ServiceConfig& config, const json& value) { config.log_level = value; }}}};

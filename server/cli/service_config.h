@@ -6,6 +6,7 @@
 
 #include "renderer/params/param.h"
 #include "server/http/limits.h"
+#include "server/http/observer.h"
 #include "server/jobs/lease_rules.h"
 #include "server/process/ask_child.h"
 #include "server/process/sandbox_settings.h"
@@ -23,6 +24,7 @@ struct ServiceConfig {
     std::set<std::string> allowed_hosts;
     std::set<std::string> cors_origins;
     std::string path_prefix;
+    http::AccessLog access_log = http::AccessLog::text;
     std::string log_level = "info";  ///< a name that spdlog knows
     http::Limits http;
     http::AnswerLimits answers;

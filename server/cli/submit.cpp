@@ -136,6 +136,8 @@ class Submission {
         const std::string key = m_options.key.empty() ? default_key(text) : m_options.key;
         const HttpAnswer answer = patiently("POST", http::reports_path, text,
                                             {{"Content-Type", "application/json"}, {"Idempotency-Key", key}});
+        if (const std::string since = answer.header("sheer-reused"); !since.empty() && !m_options.outputs.quiet)
+            fmt::print(stderr, "Answered from the archive: rendered at {}\n", since);
         if (answer.status == 400 || answer.status == 413 || answer.status == 415 || answer.status == 422)
             throw refusal(answer);
         const json report = json::parse(answer.body, nullptr, false);

@@ -102,6 +102,33 @@ struct Pin {
     std::string report, url, pinned_at, by, reason;
 };
 
+struct TrendLevel {
+    double median = 0;
+    std::optional<double> low, high;
+    std::size_t reports = 0;
+};
+
+struct TrendValue {
+    std::string report, created_at;
+    double value = 0;
+    std::optional<double> low, high;
+};
+
+struct TrendChange {
+    std::string before, after;
+    std::size_t index = 0;
+    TrendLevel level_before, level_after;
+    double p = 0;
+};
+
+struct Trend {
+    std::string spec_sha256, device, metric, method, point, unit;
+    std::vector<TrendValue> values;
+    std::vector<TrendChange> change_points;
+    std::size_t missing = 0;
+    std::vector<std::string> metrics, methods, points;
+};
+
 struct Baseline {
     std::string name, url;
     std::vector<AcceptedReport> reports;
@@ -141,6 +168,14 @@ template <>
 const Description<http::answer::AcceptedReport>& description_of();
 template <>
 const Description<http::answer::Pin>& description_of();
+template <>
+const Description<http::answer::TrendLevel>& description_of();
+template <>
+const Description<http::answer::TrendValue>& description_of();
+template <>
+const Description<http::answer::TrendChange>& description_of();
+template <>
+const Description<http::answer::Trend>& description_of();
 template <>
 const Description<http::answer::Baseline>& description_of();
 template <>

@@ -96,6 +96,11 @@ void check_accept(const Route& route, const Request& request) {
 
 }  // namespace
 
+std::string Application::pattern_of(std::string_view method, std::string_view target) const {
+    const Match match = m_router.match(method, target.substr(0, target.find('?')));
+    return match.route == nullptr ? "" : match.route->pattern;
+}
+
 Handling Application::handling(std::string_view method, std::string_view target) const {
     target = m_prefix.stripped(target);
     const Match match = m_router.match(method, target.substr(0, target.find('?')));

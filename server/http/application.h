@@ -14,6 +14,8 @@ class Application {
         : m_guard(std::move(guard)), m_router(std::move(router)), m_prefix(std::move(prefix)) {}
     /// Never throws: errors become problems. HEAD is answered like GET; the sender leaves out the body.
     Answer answer(Request request) const;
+    /// The pattern of the route of such a request; "" for none.
+    std::string pattern_of(std::string_view method, std::string_view target) const;
     /// How to treat a request with this method and target before its body has arrived.
     Handling handling(std::string_view method, std::string_view target) const;
 

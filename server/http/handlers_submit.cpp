@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "renderer/core/clock.h"
 #include "renderer/core/sha256.h"
 #include "renderer/params/param.h"
 #include "renderer/spec/shaders.h"
@@ -12,6 +13,7 @@
 #include "server/http/problem.h"
 #include "server/http/queue_speed.h"
 #include "server/http/report_view.h"
+#include "server/http/reuse.h"
 #include "server/http/service.h"
 #include "server/http/text.h"
 
@@ -72,11 +74,18 @@ Spec checked_spec(Service& service, const nlohmann::json& document) {
     return spec;
 }
 
-ReportRecord submit(Service& service, QueueSpeed& speed, const Request& request) {
+struct Submitted {
+    ReportRecord record;
+    bool is_reused = false;  ///< it was done before
+};
+
+Submitted submit(Service& service, QueueSpeed& speed, const Request& request) {
     const nlohmann::json document = json_body(request);
     const Spec spec = checked_spec(service, document);
     NewReport report{.id = service.ids.next(), .spec = spec.canonical_text()};
     report.spec_sha256 = sha256_hex(report.spec);
+    if (document.value("reuse", false) && spec.against.empty())
+        if (auto known = reusable_report(service, report.spec_sha256)) return {std::move(*known), true};
     report.idempotency = idempotency_key(request, document);
     const SubmitResult result = service.store.queue().submit(report, service.limits.max_queued);
     if (result.outcome == SubmitResult::Outcome::queue_full)
@@ -86,7 +95,7 @@ ReportRecord submit(Service& service, QueueSpeed& speed, const Request& request)
         throw Problem(422, "This Idempotency-Key was used with another spec.");
     const auto record = service.store.reports().find(result.id);
     if (!record) throw Problem(409, "The report was deleted in the meantime.");
-    return *record;
+    return {*record};
 }
 
 Response accepted(QueueSpeed& speed, const ReportRecord& record) {
@@ -106,7 +115,13 @@ std::optional<Response> if_final(Service& service, const std::string& id) {
 }
 
 Answer post_report(Service& service, const std::shared_ptr<QueueSpeed>& speed, const Request& request) {
-    const ReportRecord record = submit(service, *speed, request);
+    const auto [record, is_reused] = submit(service, *speed, request);
+    if (is_reused) {
+        Response response = report_response(200, record);
+        response.headers.add("Location", fmt::format("{}/{}", reports_path, record.id));
+        response.headers.add("Sheer-Reused", utc_text(record.finished_ms.value_or(0)));
+        return response;
+    }
     const auto wait_s = preferred_wait_s(request.headers.find("Prefer").value_or(""));
     if (!wait_s) return accepted(*speed, record);
     const auto limit = std::min(std::chrono::seconds(*wait_s), service.limits.max_wait);
@@ -156,10 +171,10 @@ std::vector<Route> submit_routes(Service& service) {
                       {"Location", "Retry-After", "ETag"},
                       "QueuedReport"},
                      {200,
-                      "Finished within the time that Prefer gave",
+                      "Finished within the time that Prefer gave, or reused: then Sheer-Reused says since when it is done",
                       "application/json",
                       "AnyReport",
-                      {"Location", "ETag", "Preference-Applied"}},
+                      {"Location", "ETag", "Preference-Applied", "Sheer-Reused"}},
                      bad_spec,
                      {429,
                       "The queue is full; Retry-After says when to try again",

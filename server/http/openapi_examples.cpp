@@ -30,6 +30,7 @@ const std::map<std::string, std::string>& described_headers() {
         {"Retry-After", "after how many seconds to ask again, from the present speed of the queue"},
         {"ETag", "changes whenever the body does; for If-Match and If-None-Match"},
         {"Preference-Applied", "the wait that was granted, such as wait=60"},
+        {"Sheer-Reused", "since when the report is done, if it was reused: UTC, RFC 3339"},
         {"Accept-Ranges", "bytes: parts of it can be asked for"},
         {"Content-Range", "which bytes these are, and of how many"},
         {"Content-Disposition", "a name for the file"},

@@ -3,6 +3,7 @@
 namespace sheer::http {
 
 // Paths of the service.
+inline constexpr const char* trends_path = "/api/v1/trends";
 inline constexpr const char* reports_path = "/api/v1/reports";
 inline constexpr const char* blobs_path = "/api/v1/blobs";
 inline constexpr const char* baselines_path = "/api/v1/baselines";

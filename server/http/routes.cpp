@@ -19,8 +19,10 @@ std::vector<Topic> all_topics() {
         {{"Assets", "Uploaded textures, models and volumes"}, asset_routes},
         {{"Baselines", "Accepted reports, with which others are compared"}, baseline_routes},
         {{"Pins", "Reports that are never deleted or pruned"}, pin_routes},
+        {{"Trends", "A number of the reports of one spec over time"}, trend_routes},
         {{"Catalog", "What this service offers: methods, scenes, metrics, ready-made specs, devices"}, catalog_routes},
-        {{"Health", "For probes"}, health_routes}};
+        {{"Health", "For probes"}, health_routes},
+        {{"Metrics", "Numbers of the service for Prometheus"}, metrics_routes}};
 }
 
 }  // namespace

@@ -70,6 +70,8 @@ class Server::Impl {
     Impl(const Endpoint& endpoint, const Limits& limits, Hooks hooks)
         : m_limits(limits),
           m_reload(std::move(hooks.reload)),
+          m_alive(std::move(hooks.alive)),
+          m_alive_interval(hooks.alive_interval),
           m_changes(m_io, std::move(hooks.changes)),
           m_context{.limits = m_limits,
                     .answer = std::move(hooks.answer),
@@ -87,7 +89,8 @@ class Server::Impl {
           m_acceptor(m_io, tcp_endpoint(endpoint)),
           m_signals(m_io, SIGINT, SIGTERM),
           m_hangup(m_io, SIGHUP),
-          m_stop_timer(m_io) {}
+          m_stop_timer(m_io),
+          m_alive_timer(m_io) {}
 
     ~Impl() {
         m_changes.join();
@@ -103,6 +106,7 @@ class Server::Impl {
     void run() {
         asio::co_spawn(m_io, accept(), asio::detached);
         await_hangup();
+        await_alive();
         m_signals.async_wait([this](boost::system::error_code error, int) {
             if (!error) stop();
         });
@@ -120,6 +124,15 @@ class Server::Impl {
             if (error) return;
             m_reload();
             await_hangup();
+        });
+    }
+
+    void await_alive() {
+        if (m_alive_interval.count() == 0) return;
+        m_alive();
+        m_alive_timer.expires_after(m_alive_interval);
+        m_alive_timer.async_wait([this](boost::system::error_code error) {
+            if (!error) await_alive();
         });
     }
 
@@ -181,10 +194,12 @@ class Server::Impl {
         m_stop_timer.cancel();
         m_signals.cancel();
         m_hangup.cancel();
+        m_alive_timer.cancel();
     }
 
     const Limits m_limits;
-    const std::function<void()> m_reload;
+    const std::function<void()> m_reload, m_alive;
+    const std::chrono::milliseconds m_alive_interval;
     // Interrupted connections end with m_io and still use these.
     Changes m_changes;
     SessionContext m_context;
@@ -193,7 +208,7 @@ class Server::Impl {
     asio::thread_pool m_spec_pool;
     tcp::acceptor m_acceptor;
     asio::signal_set m_signals, m_hangup;
-    asio::steady_timer m_stop_timer;
+    asio::steady_timer m_stop_timer, m_alive_timer;
 };
 
 Server::Server(const Endpoint& endpoint, const Limits& limits, Hooks hooks) try

@@ -36,8 +36,10 @@ class Server {
     struct Hooks {
         Answerer answer;
         HandlingOf handling;
-        std::unique_ptr<ChangeWatch> changes;  ///< the store's
-        std::function<void()> reload;          ///< on SIGHUP; on the thread of the connections
+        std::unique_ptr<ChangeWatch> changes;        ///< the store's
+        std::function<void()> reload;                ///< on SIGHUP; on the thread of the connections
+        std::function<void()> alive = {};            ///< every `alive_interval`, on the same thread
+        std::chrono::milliseconds alive_interval{};  ///< 0: never
     };
 
     /// Listens at once; connections wait until `run`. Throws std::runtime_error.

@@ -37,6 +37,8 @@ struct Service {
     std::function<std::string(const std::string& glsl)> check_shading = {};
     /// See path_prefix.h.
     std::string path_prefix = {};
+    /// In the text format of Prometheus; null for none.
+    std::function<std::string()> metrics = {};
 };
 
 /// Throws Problem (403) for `what`, such as "An upload", if it needs a sandbox and there is none.
@@ -51,8 +53,10 @@ std::vector<Route> archive_routes(Service& service);   ///< the list of reports,
 std::vector<Route> asset_routes(Service& service);     ///< uploaded files
 std::vector<Route> baseline_routes(Service& service);  ///< accepted reports
 std::vector<Route> pin_routes(Service& service);       ///< pinned reports
+std::vector<Route> trend_routes(Service& service);     ///< numbers over time
 std::vector<Route> catalog_routes(Service& service);   ///< /methods, /scenes, /devices
 std::vector<Route> health_routes(Service& service);    ///< /healthz, /readyz
+std::vector<Route> metrics_routes(Service& service);   ///< /metrics
 std::vector<Route> page_routes();                      ///< the page at /
 
 /// All of them, and /openapi.json made from their table.

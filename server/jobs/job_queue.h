@@ -8,6 +8,7 @@
 
 #include "server/jobs/blobs.h"
 #include "server/jobs/job_error.h"
+#include "server/jobs/trends.h"
 
 namespace sheer {
 
@@ -46,6 +47,7 @@ enum class LeaseState { held, cancel_requested, lost };
 struct FinishedReport {
     nlohmann::json report;
     std::int64_t finished_ms = 0;
+    ReportNumbers numbers;        ///< see Trends; empty names: none
     std::vector<BlobName> blobs;  ///< every picture that `report` names, each once
     /// The bytes of one of `blobs`; may be called more than once for each. May throw.
     std::function<std::string(const std::string& sha256)> read_blob;

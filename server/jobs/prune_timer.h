@@ -14,23 +14,27 @@ namespace sheer {
 /// Removes the reports; those that were pinned or accepted meanwhile stay. Returns what it removed.
 std::vector<PrunedReport> prune(Store& store, const std::vector<PrunedReport>& reports);
 
-/// Prunes a store from time to time, on a thread of its own; without rules, never.
+/// Prunes a store from time to time, on a thread of its own.
 class PruneTimer {
   public:
-    PruneTimer(Store& store, std::vector<RetentionRule> rules, std::chrono::milliseconds interval, ClockMs clock);
+    PruneTimer(Store& store, ClockMs clock);
     PruneTimer(const PruneTimer&) = delete;
     PruneTimer& operator=(const PruneTimer&) = delete;
     ~PruneTimer() = default;
 
+    /// From now on, and now; without rules, never.
+    void use(std::vector<RetentionRule> rules, std::chrono::milliseconds interval);
+
   private:
     void run(const std::stop_token& stop);
-    void prune_now();
+    void prune_by(const std::vector<RetentionRule>& rules);
 
     Store& m_store;
-    const std::vector<RetentionRule> m_rules;
-    const std::chrono::milliseconds m_interval;
     const ClockMs m_clock;
-    std::mutex m_mutex;
+    std::mutex m_mutex;  ///< guards the next three
+    std::vector<RetentionRule> m_rules;
+    std::chrono::milliseconds m_interval{};
+    bool m_changed = false;
     std::condition_variable_any m_wake;
     std::jthread m_thread;
 };

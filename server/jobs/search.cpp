@@ -9,7 +9,7 @@ namespace {
 
 constexpr char separator = '\x1f';
 
-std::string in_lower_case(std::string text) {
+std::string lowered_ascii(std::string text) {
     std::ranges::transform(text, text.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     return text;
@@ -43,7 +43,7 @@ std::vector<std::string> words_of(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         std::size_t end = at;
         while (end < text.size() && is_of_word(text[end])) ++end;
-        if (end > at) add_once(words, {in_lower_case(std::string(text.substr(at, end - at)))});
+        if (end > at) add_once(words, {lowered_ascii(std::string(text.substr(at, end - at)))});
         at = std::max(end, at + 1);
     }
     return words;
@@ -57,7 +57,7 @@ std::vector<std::string> search_words(const Facets& facets) {
 
 std::vector<std::string> facet_texts(const Facets& facets, const std::string& spec_sha256) {
     std::vector<std::string> texts = {facet("scene", facets.scene), facet("spec", spec_sha256)};
-    for (const std::string& method : facets.methods) add_once(texts, {facet("method", in_lower_case(method))});
+    for (const std::string& method : facets.methods) add_once(texts, {facet("method", lowered_ascii(method))});
     for (const auto& [name, value] : facets.tags.items())
         add_once(texts, {facet("tag", name), facet("tag", name) + separator + value.get<std::string>()});
     return texts;
@@ -67,7 +67,7 @@ std::vector<std::string> outcome_facet_texts(const std::string& verdict, const s
     std::vector<std::string> texts;
     if (!verdict.empty()) texts.push_back(facet("verdict", verdict));
     if (device.empty()) return texts;
-    add_once(texts, {facet("device", in_lower_case(device))});
+    add_once(texts, {facet("device", lowered_ascii(device))});
     for (const std::string& word : words_of(device)) add_once(texts, {facet("device", word)});
     return texts;
 }
@@ -81,9 +81,9 @@ std::vector<std::string> wanted_facet_texts(const ListFilter& filter) {
     if (filter.status) texts.push_back(status_facet_text(*filter.status));
     if (!filter.scene.empty()) texts.push_back(facet("scene", filter.scene));
     if (!filter.verdict.empty()) texts.push_back(facet("verdict", filter.verdict));
-    if (!filter.device.empty()) texts.push_back(facet("device", in_lower_case(filter.device)));
+    if (!filter.device.empty()) texts.push_back(facet("device", lowered_ascii(filter.device)));
     if (!filter.spec_sha256.empty()) texts.push_back(facet("spec", filter.spec_sha256));
-    for (const std::string& method : filter.methods) add_once(texts, {facet("method", in_lower_case(method))});
+    for (const std::string& method : filter.methods) add_once(texts, {facet("method", lowered_ascii(method))});
     for (const std::string& tag : filter.tags) add_once(texts, {tag_facet(tag)});
     return texts;
 }

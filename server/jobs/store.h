@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "server/jobs/activity.h"
 #include "server/jobs/assets.h"
 #include "server/jobs/baselines.h"
 #include "server/jobs/blobs.h"
@@ -10,6 +11,7 @@
 #include "server/jobs/pins.h"
 #include "server/jobs/readiness.h"
 #include "server/jobs/report_archive.h"
+#include "server/jobs/trends.h"
 
 namespace sheer {
 
@@ -26,6 +28,8 @@ class Store {
     virtual Pins& pins() = 0;
     virtual Readiness& readiness() = 0;
     virtual Care& care() = 0;
+    virtual Trends& trends() = 0;
+    virtual Activity& activity() = 0;
     virtual std::unique_ptr<ChangeWatch> watch() = 0;
 };
 

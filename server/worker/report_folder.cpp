@@ -5,6 +5,7 @@
 #include "renderer/core/clock.h"
 #include "renderer/core/files.h"
 #include "renderer/core/sha256.h"
+#include "renderer/files/trend_values.h"
 #include "server/jobs/limits.h"
 #include "server/jobs/store_errors.h"
 
@@ -35,6 +36,11 @@ std::vector<BlobName> named_blobs(const report::Report& report) {
     return blobs;
 }
 
+ReportNumbers numbers_of(const report::Report& report) {
+    const TrendValues values = trend_values(report);
+    return {trend_names_text(values), trend_numbers(values)};
+}
+
 void check_picture_name(const BlobName& blob) {
     if (!is_sha256(blob.sha256)) throw StoreError("a picture's sha256 is none: " + blob.sha256);
     if (!blob.media_type.starts_with("image/") || blob.media_type.starts_with("image/svg"))
@@ -52,6 +58,7 @@ FinishedReport read_report_folder(const fs::path& folder, const Lease& lease, st
     report.spec = json::parse(lease.spec);
     report.spec_sha256 = lease.spec_sha256;
     FinishedReport finished{.report = to_document(report), .finished_ms = finished_ms};
+    finished.numbers = numbers_of(report);
     finished.blobs = named_blobs(report);
     finished.read_blob = [folder](const std::string& sha256) { return read_file(folder / sha256, max_picture_bytes); };
     for (const BlobName& blob : finished.blobs) {

@@ -10,6 +10,9 @@ namespace sheer {
 /// The file of every picture that `report` names, each once.
 std::vector<BlobName> named_blobs(const report::Report& report);
 
+/// The numbers that are followed over time.
+ReportNumbers numbers_of(const report::Report& report);
+
 /// Throws StoreError if a picture's hash is none, or its type is not an image's: a blob is served under the service's
 /// own origin, so it must not be a page.
 void check_picture_name(const BlobName& blob);

@@ -91,7 +91,7 @@ async function all_reports(service) {
 
 // With the bytes of other files, so that not many reports fill the disk.
 for (const [options, other_bytes] of [
-  ["size=1m", 400 << 10],
+  ["size=2m", 400 << 10],
   ["size=3m", 1600 << 10],
   ["size=64m,nr_inodes=70", 0],
 ]) {

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything that a database says, read without any of our code; "unreadable" if SQLite refuses. When a worker last
-/// rendered is left out, since it is written again every second.
+/// rendered is left out, since it is written again every second, and so are the counters.
 std::string dump(const fs::path& file) {
     std::string all;
     try {
@@ -24,7 +24,7 @@ std::string dump(const fs::path& file) {
         SQLite::Statement names(database, "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name");
         while (names.executeStep()) tables.push_back(names.getColumn(0).getString());
         for (const std::string& table : tables) {
-            if (table == "health" || table == "search_words") continue;
+            if (table == "health" || table == "counters" || table == "search_words") continue;
             SQLite::Statement rows(database, "SELECT * FROM \"" + table + "\"");
             while (rows.executeStep())
                 for (int i = 0; i < rows.getColumnCount(); ++i)

@@ -299,6 +299,17 @@ class NoCare : public Care {
     StoreSize size() override { return {}; }
 };
 
+class NoActivity : public Activity {
+  public:
+    ActivityCounts counts() override { return {}; }
+};
+
+class NoTrends : public Trends {
+  public:
+    std::vector<TrendReport> reports(const ListFilter&) override { return {}; }
+    void keep(const std::string&, const ReportNumbers&) override {}
+};
+
 class Health : public Readiness {
   public:
     explicit Health(const Base& base) : m_base(base) {}
@@ -345,6 +356,8 @@ struct MemoryStore::Parts {
     memory_store::Kept pins{base};
     memory_store::Health readiness{base};
     memory_store::NoCare care;
+    memory_store::NoTrends trends;
+    memory_store::NoActivity activity;
 };
 
 MemoryStore::MemoryStore(std::shared_ptr<MemoryState> state, LeaseRules rules, ClockMs clock)
@@ -375,6 +388,12 @@ Readiness& MemoryStore::readiness() {
 }
 Care& MemoryStore::care() {
     return m_parts->care;
+}
+Trends& MemoryStore::trends() {
+    return m_parts->trends;
+}
+Activity& MemoryStore::activity() {
+    return m_parts->activity;
 }
 std::unique_ptr<ChangeWatch> MemoryStore::watch() {
     return std::make_unique<memory_store::Watch>(m_parts->base.state);

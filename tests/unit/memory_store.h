@@ -26,6 +26,8 @@ class MemoryStore : public Store {
     Pins& pins() override;
     Readiness& readiness() override;
     Care& care() override;
+    Trends& trends() override;
+    Activity& activity() override;
     std::unique_ptr<ChangeWatch> watch() override;
 
   private:

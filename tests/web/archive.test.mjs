@@ -113,3 +113,38 @@ page_test("the archive keeps filters and choice in the address, and follows what
   await row.locator(".status").waitFor();
   await row.getByText("no checks").waitFor({ timeout: 60_000 });
 });
+
+page_test("the trend of a spec shows where it changed, and a click compares around that", {}, async (page) => {
+  const spec = {
+    title: "Trend",
+    scene: { type: "layers", layers: [{ depth: 0.5 }] },
+    image: { width: 1, height: 1 },
+    methods: ["b2f"],
+    timing: { rounds: 1 },
+  };
+  const [first, second] = [
+    await post_report(spec, { Prefer: "wait=60" }),
+    await post_report(spec, { Prefer: "wait=60" }),
+  ];
+  await page.goto(`${tests.url()}/#/reports/${second.id}`);
+  await page.getByRole("link", { name: "Trend of this spec" }).click();
+  await page.getByText("2 reports on").waitFor();
+  await page.getByText("Its level did not change.").waitFor();
+  assert.equal(await page.locator(".trend-mark").count(), 2);
+  await page.getByLabel("Metric").selectOption("fragments.shaded");
+  await page.waitForURL(/metric=fragments.shaded/);
+  // A change needs more reports than a test can render.
+  await page.route(/\/api\/v1\/trends/, async (route) => {
+    const trend = await (await route.fetch()).json();
+    const level = (median) => ({ median, low: median, high: median, reports: 1 });
+    trend.change_points = [
+      { before: first.id, after: second.id, index: 1, level_before: level(2), level_after: level(3), p: 0.005 },
+    ];
+    await route.fulfill({ json: trend });
+  });
+  await page.reload();
+  await page.locator(".trend-changes li").getByText("2 → 3 (× 1.5)").waitFor();
+  await assert_accessible(page, "a trend");
+  await page.locator(".trend-change").click();
+  await page.waitForURL(new RegExp(`#/diff/${first.id}/${second.id}`));
+});

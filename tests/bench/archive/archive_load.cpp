@@ -1,4 +1,5 @@
-// Fills an archive through its own interface and measures how quickly it is searched. docs/results/store.md has its figures.
+// Fills an archive through its own interface and measures how quickly it is searched. docs/results/store.md has its
+// figures.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,0 +1,23 @@
+#pragma once
+#include "server/archive/sqlite_archive.h"
+#include "server/jobs/activity.h"
+
+namespace sheer {
+
+class SqliteActivity : public Activity {
+  public:
+    explicit SqliteActivity(SqliteArchive& archive) : m_archive(archive) {}
+    ActivityCounts counts() override;
+
+  private:
+    SqliteArchive& m_archive;
+};
+
+// Inside a transaction.
+
+void count_lost_lease(SQLite::Database& database);
+/// Adds the time since the job's last heartbeat to the stage in which it was since then. Call it before the heartbeat
+/// is written.
+void count_stage_time(SQLite::Database& database, const SqliteArchive& archive, const std::string& id);
+
+}  // namespace sheer
