@@ -66,7 +66,7 @@ function chart(trend) {
         "aria-label": `Compare around the change ${change_text(change, unit)}`,
       },
       svg("line", { x1: at, x2: at, y1: TOP, y2: HEIGHT - BOTTOM }),
-      svg("line", { class: "trend-target", x1: at, x2: at, y1: TOP, y2: HEIGHT - BOTTOM }),
+      svg("rect", { class: "trend-target", x: at - 7, width: 14, y: TOP, height: HEIGHT - BOTTOM - TOP }),
       svg("title", {}, change_text(change, unit)),
     );
   });
