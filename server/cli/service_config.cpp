@@ -117,7 +117,7 @@ Section general_settings() {
                         "text", {"off", "text", "json"}),
           [](ServiceConfig& config, const json& value) {
               using enum http::AccessLog;
-              config.access_log = value == "off" ? off : value == "json" ? http::AccessLog::json : text;
+              config.access_log = value == "off" ? off : value == "json" ? http::AccessLog::json_lines : text;
           }},
              {Param::choice("log_level", "least severe messages that are logged; reloaded on SIGHUP",
                             defaults.log_level, {"debug", "info", "warning", "error"}),

@@ -8,9 +8,9 @@
 #include "server/http/limits.h"
 #include "server/http/observer.h"
 #include "server/jobs/lease_rules.h"
+#include "server/jobs/retention.h"
 #include "server/process/ask_child.h"
 #include "server/process/sandbox_settings.h"
-#include "server/jobs/retention.h"
 #include "server/worker/worker.h"
 
 namespace sheer::cli {

@@ -123,7 +123,7 @@ void Observer::ended(const Observed& observed, Response& response) {
         case AccessLog::text:
             spdlog::info("{} {} {} {:.3f} s {}", observed.method, observed.target, status, seconds, observed.id);
             break;
-        case AccessLog::json:
+        case AccessLog::json_lines:
             m_parts->json_lines->info(json{
                 {"time", utc_text(m_parts->clock())},
                 {"request_id", observed.id},

@@ -9,7 +9,7 @@
 
 namespace sheer::http {
 
-enum class AccessLog { off, text, json };
+enum class AccessLog { off, text, json_lines };
 
 /// Looks at every request and its answer: gives it an id, counts it, logs it. Thread-safe.
 class Observer {

@@ -21,8 +21,7 @@ std::vector<Topic> all_topics() {
         {{"Pins", "Reports that are never deleted or pruned"}, pin_routes},
         {{"Trends", "A number of the reports of one spec over time"}, trend_routes},
         {{"Catalog", "What this service offers: methods, scenes, metrics, ready-made specs, devices"}, catalog_routes},
-        {{"Health", "For probes"}, health_routes},
-        {{"Metrics", "Numbers of the service for Prometheus"}, metrics_routes}};
+        {{"Health", "For probes"}, health_routes}};
 }
 
 }  // namespace
@@ -36,6 +35,7 @@ Router make_router(Service& service) {
         router.add(std::move(routes));
         tags.push_back(topic.tag);
     }
+    router.add(metrics_routes(service));
     Route openapi{.method = "GET",
                   .pattern = "/api/v1/openapi.json",
                   .id = "getOpenapi",
