@@ -90,27 +90,28 @@ Section general_settings() {
                   .kind = Param::Kind::any,
                   .summary = "origins of other sites, such as https://ci.example, whose pages may use the service"};
     origins.default_value = json::array();
-    return {"",
-            "",
-            {{Param::text("listen", "ADDRESS:PORT; port 0 takes any free port, which is printed on standard output",
-                          defaults.listen, 200),
-              [](ServiceConfig& config, const json& value) { config.listen = value; }},
-             {Param::text("data", "folder of the archive: `archive.sqlite`, `blobs/`, `assets/`, `scratch/`",
-                          defaults.data.string(), 4096),
-              [](ServiceConfig& config, const json& value) { config.data = value.get<std::string>(); }},
-             integer("workers",
-                     "worker processes; they disturb each other's timings, so use more than one only for pictures, not "
-                     "for measurements; 0 for none",
-                     "", 0, 256, at(&ServiceConfig::workers)),
-             {hosts, [](ServiceConfig& config,
-                        const json& value) { config.allowed_hosts = value.get<std::set<std::string>>(); }},
-             {origins, [](ServiceConfig& config,
-                          const json& value) { config.cors_origins = value.get<std::set<std::string>>(); }},
-             {Param::text("path_prefix",
-                          "path under which a proxy offers the service, such as `/sheer`: page, links, Location and "
-                          "events are all below it",
-                          defaults.path_prefix, 200),
-              [](ServiceConfig& config, const json& value) { config.path_prefix = value; }},
+    return {
+        "",
+        "",
+        {{Param::text("listen", "ADDRESS:PORT; port 0 takes any free port, which is printed on standard output",
+                      defaults.listen, 200),
+          [](ServiceConfig& config, const json& value) { config.listen = value; }},
+         {Param::text("data", "folder of the archive: `archive.sqlite`, `blobs/`, `assets/`, `scratch/`",
+                      defaults.data.string(), 4096),
+          [](ServiceConfig& config, const json& value) { config.data = value.get<std::string>(); }},
+         integer("workers",
+                 "worker processes; they disturb each other's timings, so use more than one only for pictures, not "
+                 "for measurements; 0 for none",
+                 "", 0, 256, at(&ServiceConfig::workers)),
+         {hosts,
+          [](ServiceConfig& config, const json& value) { config.allowed_hosts = value.get<std::set<std::string>>(); }},
+         {origins,
+          [](ServiceConfig& config, const json& value) { config.cors_origins = value.get<std::set<std::string>>(); }},
+         {Param::text("path_prefix",
+                      "path under which a proxy offers the service, such as `/sheer`: page, links, Location and "
+                      "events are all below it",
+                      defaults.path_prefix, 200),
+          [](ServiceConfig& config, const json& value) { config.path_prefix = value; }},
          {Param::choice("access_log",
                         "a line for each request: as text among the other messages of the level info, or as a line of "
                         "JSON; reloaded on SIGHUP",
@@ -119,9 +120,9 @@ Section general_settings() {
               using enum http::AccessLog;
               config.access_log = value == "off" ? off : value == "json" ? http::AccessLog::json_lines : text;
           }},
-             {Param::choice("log_level", "least severe messages that are logged; reloaded on SIGHUP",
-                            defaults.log_level, {"debug", "info", "warning", "error"}),
-              [](ServiceConfig& config, const json& value) { config.log_level = value; }}}};
+         {Param::choice("log_level", "least severe messages that are logged; reloaded on SIGHUP", defaults.log_level,
+                        {"debug", "info", "warning", "error"}),
+          [](ServiceConfig& config, const json& value) { config.log_level = value; }}}};
 }
 
 Section archive_settings() {
