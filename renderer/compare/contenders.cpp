@@ -1,6 +1,7 @@
 #include "renderer/compare/contenders.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -124,6 +125,12 @@ gl::FrameSample Contenders::timed_frame(const Contender& contender) {
         const ClockReading reading = m_clock->read();
         log.lowered_by.insert(reading.lowered_by.begin(), reading.lowered_by.end());
         if (reading.lowered_by.empty() || again == most_retakes) {
+            if (!reading.lowered_by.empty())
+                add_note(contender.result->notes,
+                         {"lowered-clock",
+                          fmt::format("The GPU's clock stayed lowered while this method was timed: {}.",
+                                      fmt::join(reading.lowered_by, ", ")),
+                          ""});
             if (!contender.again) log.sm_mhz.push_back(reading.sm_mhz);
             return sample;
         }

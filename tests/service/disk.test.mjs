@@ -66,7 +66,7 @@ async function fill(service) {
   let seed = 0;
   return until(
     async () => {
-      const response = await service.post(small(++seed), { Prefer: "wait=4" });
+      const response = await service.post(small(++seed), { Prefer: "wait=20" });
       if (response.status !== 507) {
         assert.ok([200, 202].includes(response.status), `${response.status}: ${await response.text()}`);
         return null;

@@ -35,7 +35,8 @@ test("frames at a lowered clock are thrown away, taken again and counted", () =>
       FAKE_NVML_NAME: name,
       FAKE_NVML_LOWERED_EVERY: every,
     });
-    const timing_of = (environment) => compared(folder, environment).runs[0].results[0].timing;
+    const result_of = (environment) => compared(folder, environment).runs[0].results[0];
+    const timing_of = (environment) => result_of(environment).timing;
 
     const steady = timing_of(nvml("llvmpipe", "0"));
     assert.deepEqual(steady.gpu_clock_mhz, Array(6).fill(1980));
@@ -50,9 +51,13 @@ test("frames at a lowered clock are thrown away, taken again and counted", () =>
     assert.deepEqual(hot.clock_lowered_by, ["heat"]);
 
     // It does not wait without end: each of the 12 is taken three times more.
-    const always = timing_of(nvml("llvmpipe", "1"));
-    assert.equal(always.samples.length, 6);
-    assert.equal(always.retaken_samples, 36);
+    const always = result_of(nvml("llvmpipe", "1"));
+    assert.equal(always.timing.samples.length, 6);
+    assert.equal(always.timing.retaken_samples, 36);
+    assert.deepEqual(
+      always.notes.filter(({ code }) => code === "lowered-clock").map(({ text }) => text),
+      ["The GPU's clock stayed lowered while this method was timed: heat."],
+    );
 
     const other = timing_of(nvml("another GPU", "1"));
     assert.equal(other.gpu_clock_mhz, null);

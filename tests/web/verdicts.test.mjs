@@ -230,6 +230,7 @@ page_test("what looks change and with which report it was compared is shown", { 
     new RegExp(`^compared with ${first.id} of page, accepted`),
   );
   await assert_accessible(page);
+  await fetch(`${tests.url()}/api/v1/baselines/page`, { method: "DELETE" });
 });
 
 const COLORED = (glsl, more = {}) => ({
