@@ -186,6 +186,7 @@ int unpin(const ArchiveArguments& options) {
 void add_archive(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("archive", "Check, copy, move and prune the reports of a service");
     command->require_subcommand(1);
+    command->footer("Example: sheer archive fsck");
     add_archive_commands(*command,
                          {.fsck = check,
                           .gc = collect,

@@ -265,5 +265,5 @@ test("without a display it says so", () => {
   writeFileSync(path, readFileSync(path, "utf8").replace("b2f", "nothing"));
   const wrong = spawnSync(process.env.SHEER, ["view", path], { env: without, encoding: "utf8" });
   assert.equal(wrong.status, 2);
-  assert.match(wrong.stderr, /^\/methods\/0: /);
+  assert.match(wrong.stderr, /spec\.json is wrong:\n\/methods\/0: /);
 });
