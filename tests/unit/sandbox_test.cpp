@@ -148,8 +148,7 @@ std::vector<Escape> process_escapes() {
              const long pid = syscall(SYS_clone3, &arguments, sizeof arguments);
              if (pid == 0) _exit(0);
              return pid;
-         },
-         true},
+         }},
         {"fork into namespaces", [](const Place&) { return new_process(CLONE_NEWUSER); }},
         {"look into another process", [](const Place& p) { return ptrace(PTRACE_SEIZE, p.parent, nullptr, nullptr); }},
         {"be looked into", [](const Place&) { return ptrace(PTRACE_TRACEME, 0, nullptr, nullptr); }, true},
@@ -245,7 +244,7 @@ std::vector<Escape> kernel_escapes() {
         {"read the kernel's log", [](const Place&) { return syscall(SYS_syslog, 10, nullptr, 0); }},
         {"become another user", [](const Place&) { return static_cast<long>(setuid(getuid())); }, true},
         {"take capabilities", [](const Place&) { return syscall(SYS_capset, nullptr, nullptr); }},
-        {"loosen its execution domain", [](const Place&) { return syscall(SYS_personality, 0x0040000); }, true},
+        {"loosen its execution domain", [](const Place&) { return syscall(SYS_personality, 0x0040000); }},
         {"lift the filter", [](const Place&) { return static_cast<long>(prctl(PR_SET_SECCOMP, 0, 0, 0, 0)); }},
         {"share memory", [](const Place&) { return syscall(SYS_shmget, 0, 4096, 01600); }, true},
         {"send messages", [](const Place&) { return syscall(SYS_msgget, 0, 01600); }, true},
