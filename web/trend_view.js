@@ -95,7 +95,7 @@ function chart(trend) {
 }
 
 function change_list({ change_points, values, unit }) {
-  if (change_points.length === 0) return el("p", { class: "muted" }, "Its level did not change.");
+  if (change_points.length === 0) return el("p", { class: "muted" }, "No change of its level was found.");
   return el(
     "ul",
     { class: "trend-changes", "aria-label": "Changes" },

@@ -129,7 +129,7 @@ page_test("the trend of a spec shows where it changed, and a click compares arou
   await page.goto(`${tests.url()}/#/reports/${second.id}`);
   await page.getByRole("link", { name: "Trend of this spec" }).click();
   await page.getByText("2 reports on").waitFor();
-  await page.getByText("Its level did not change.").waitFor();
+  await page.getByText("No change of its level was found.").waitFor();
   assert.equal(await page.locator(".trend-mark").count(), 2);
   await page.getByLabel("Metric").selectOption("fragments.shaded");
   await page.waitForURL(/metric=fragments.shaded/);
