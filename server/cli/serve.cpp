@@ -87,8 +87,9 @@ void serve(const ServeOptions& options) {
     ReportIds ids(system_now_ms);
     DeviceList devices(config.devices_cache);
     ShadingCheckOptions shading_options;
-    shading_options.child.memory_bytes = config.worker.memory_limit_bytes;
-    shading_options.child.sandbox = config.sandbox;
+    shading_options.child.memory_bytes = config.question.memory_bytes;
+    shading_options.child.sandbox = config.question.sandbox;
+    shading_options.child.fork_server = config.question.fork_server;
     ShadingCheck shadings(shading_options);
     http::Observer observer(&store);
     PruneTimer pruning(store, system_now_ms);

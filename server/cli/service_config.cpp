@@ -11,6 +11,7 @@
 #include "server/cli/retention_config.h"
 #include "server/http/guard.h"
 #include "server/http/path_prefix.h"
+#include "server/process/fork_server.h"
 
 namespace sheer::cli {
 
@@ -283,6 +284,8 @@ ServiceConfig read_service_config(const json& document) {
             setting.set(config, (section.name.empty() ? read : read[section.name])[setting.param.name]);
     config.worker.rules = config.leases;
     config.worker.sandbox = config.upload_check.sandbox = config.question.sandbox = config.sandbox;
+    config.worker.fork_server = config.upload_check.fork_server = config.question.fork_server =
+        std::make_shared<ForkServer>(rendering_program());
     config.question.memory_bytes = config.worker.memory_limit_bytes;
     config.answers.max_checks = config.answers.max_diffs = std::max(1, config.http.threads / 2);
     return config;

@@ -35,7 +35,7 @@ struct ServiceConfig {
     ChildLimits question;  ///< of a child that explains a pixel or compares reports; its memory is a renderer's
     std::vector<RetentionRule> retention;
     std::chrono::milliseconds retention_interval{3'600'000};
-    WorkerOptions worker;  ///< without `scratch`, `data`, `name`, `rules` and `sandbox`
+    WorkerOptions worker;  ///< without `scratch`, `data`, `name`, `rules`, `sandbox` and `fork_server`
 };
 
 /// The fields of a configuration file. Its reader, configs/server.json and the documents are made from them.

@@ -19,6 +19,7 @@ ChildReply ask_child(const std::vector<std::string>& arguments, const std::strin
     ChildReply reply;
     ChildRun run;
     run.options.program = limits.program;
+    run.options.fork_server = limits.fork_server;
     run.options.arguments = arguments;
     confine(run.options, limits.sandbox);
     run.options.memory_limit_bytes = limits.memory_bytes;

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ChildLimits {
     std::chrono::milliseconds time{60'000};
     std::string program = rendering_program();
     SandboxSettings sandbox{.enabled = false};
+    std::shared_ptr<ForkServer> fork_server = nullptr;  ///< of `program`, if any
 };
 
 struct ChildReply {

@@ -1,7 +1,6 @@
 #include "server/process/child_process.h"
 
 #include <fcntl.h>
-#include <linux/close_range.h>
 #include <linux/sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -14,8 +13,12 @@
 #include <system_error>
 
 #include "renderer/core/exit_codes.h"
+#include "server/process/fork_server.h"
 
 namespace sheer {
+
+const unsigned long child_namespaces =
+    CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET | CLONE_NEWIPC | CLONE_NEWUTS | CLONE_NEWNS;
 
 namespace {
 
@@ -30,8 +33,27 @@ std::vector<char*> argument_pointers(std::string& name, std::vector<std::string>
     return pointers;
 }
 
-/// Runs in the child between fork and exec, where only async-signal-safe calls are allowed.
-[[noreturn]] void become(const ChildOptions& options, char* const* arguments, int output, pid_t parent) {
+/// Like fork().
+pid_t fork_into_namespaces() {
+    return static_cast<pid_t>(syscall(SYS_clone, child_namespaces | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
+}
+
+ExitStatus status_of(int wait_status) {
+    if (WIFSIGNALED(wait_status)) return {-1, WTERMSIG(wait_status)};
+    return {WEXITSTATUS(wait_status), 0};
+}
+
+}  // namespace
+
+bool limits_memory() {
+#ifdef __SANITIZE_ADDRESS__
+    return false;
+#else
+    return true;
+#endif
+}
+
+void settle_child(const ChildOptions& options, int output, pid_t parent) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, options.signal_when_orphaned);
     // The parent may have died before prctl was called. A process in another namespace has no number here.
@@ -52,31 +74,7 @@ std::vector<char*> argument_pointers(std::string& name, std::vector<std::string>
     dup2(input, STDIN_FILENO);
     dup2(output, STDOUT_FILENO);
     // Otherwise a child would keep the service's listening socket and connections open.
-    close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
-    execv(options.program.c_str(), arguments);
-    _exit(exit_not_started);
-}
-
-/// Like fork().
-pid_t fork_into_namespaces() {
-    constexpr unsigned long all =
-        CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET | CLONE_NEWIPC | CLONE_NEWUTS | CLONE_NEWNS;
-    return static_cast<pid_t>(syscall(SYS_clone, all | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
-}
-
-ExitStatus status_of(int wait_status) {
-    if (WIFSIGNALED(wait_status)) return {-1, WTERMSIG(wait_status)};
-    return {WEXITSTATUS(wait_status), 0};
-}
-
-}  // namespace
-
-bool limits_memory() {
-#ifdef __SANITIZE_ADDRESS__
-    return false;
-#else
-    return true;
-#endif
+    close_range(STDERR_FILENO + 1, ~0u, 0);
 }
 
 ChildProcess::ChildProcess(const ChildOptions& options) {
@@ -86,9 +84,16 @@ ChildProcess::ChildProcess(const ChildOptions& options) {
     std::vector<std::string> arguments = options.arguments;
     const std::vector<char*> pointers = argument_pointers(name, arguments);
     const pid_t parent = getpid();
-    m_pid = options.own_namespaces ? fork_into_namespaces() : -1;
+    const int output = options.capture_output ? pipe_ends[1] : STDERR_FILENO;
+    if (options.fork_server && options.fork_server->program() == options.program)
+        m_pid = options.fork_server->fork(options, output);
+    if (m_pid < 0 && options.own_namespaces) m_pid = fork_into_namespaces();
     if (m_pid < 0) m_pid = fork();
-    if (m_pid == 0) become(options, pointers.data(), options.capture_output ? pipe_ends[1] : STDERR_FILENO, parent);
+    if (m_pid == 0) {
+        settle_child(options, output, parent);
+        execv(options.program.c_str(), pointers.data());
+        _exit(exit_not_started);
+    }
     const int fork_error = errno;
     if (options.capture_output) {
         close(pipe_ends[1]);

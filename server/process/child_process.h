@@ -3,12 +3,15 @@
 
 #include <csignal>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sheer {
+
+class ForkServer;
 
 /// This program itself, even if its file was replaced or removed since it started.
 inline constexpr const char* own_program = "/proc/self/exe";
@@ -22,6 +25,8 @@ struct ChildOptions {
     /// In namespaces of its own where the system permits it: no network, no sight of other processes, no privileges.
     bool own_namespaces = false;
     int signal_when_orphaned = SIGKILL;  ///< what the child gets when the thread that started it ends
+    /// Forks the child if it is one of `program`, which otherwise is started; may be null.
+    std::shared_ptr<ForkServer> fork_server = nullptr;
 };
 
 /// Whether memory_limit_bytes has an effect: not with AddressSanitizer, which reserves terabytes of address space.
@@ -57,6 +62,13 @@ class ChildProcess {
     int m_output = -1;
     std::optional<ExitStatus> m_status;
 };
+
+/// Makes a new process, in which only async-signal-safe calls are allowed, a child as the options say: its group,
+/// signals, limits and files.
+void settle_child(const ChildOptions& options, int output, pid_t parent);
+
+/// What `own_namespaces` stands for, as flags of clone().
+extern const unsigned long child_namespaces;
 
 /// Splits the output of a child into lines. A line over `max_bytes` is dropped, so that a faulty child does not fill
 /// the memory.

@@ -45,6 +45,7 @@ void Attempt::run() {
 ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
     ChildRun run;
     run.options.program = m_options.program;
+    run.options.fork_server = m_options.fork_server;
     run.options.arguments = {"render", spec.string(), "--out", out.string(), "--data", m_options.data};
     confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
@@ -122,7 +123,8 @@ FinishedReport Attempt::finished_report(const fs::path& out) {
                               {.memory_bytes = m_options.memory_limit_bytes,
                                .time = m_options.time_limit,
                                .program = m_options.program,
-                               .sandbox = m_options.sandbox});
+                               .sandbox = m_options.sandbox,
+                               .fork_server = m_options.fork_server});
     });
     while (comparing.wait_for(std::chrono::milliseconds(m_options.rules.heartbeat_ms)) != std::future_status::ready)
         m_queue.heartbeat(m_lease, m_progress.fraction, "comparing with the baseline");

@@ -81,6 +81,7 @@ void Worker::set_back(const Lease& lease, const JobError& error, bool lacks_room
 void Worker::probe(StopSignal& stop) {
     ChildRun run;
     run.options.program = m_options.program;
+    run.options.fork_server = m_options.fork_server;
     run.options.arguments = {"render", "--probe"};
     confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "renderer/core/clock.h"
@@ -24,6 +25,7 @@ struct WorkerOptions {
     std::chrono::milliseconds probe_interval{30'000};
     LeaseRules rules;
     SandboxSettings sandbox{.enabled = false};
+    std::shared_ptr<ForkServer> fork_server = nullptr;  ///< of `program`, if any
 };
 
 /// Leases jobs, renders each in a child process that may die, and commits the reports.

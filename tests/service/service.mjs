@@ -46,7 +46,7 @@ export async function until(question, what, limit_s = 60) {
 }
 
 /** The ids of a process's children. */
-function children_of(pid) {
+export function children_of(pid) {
   const children = [];
   for (const name of readdirSync("/proc").filter((entry) => /^\d+$/.test(entry))) {
     try {
@@ -59,7 +59,7 @@ function children_of(pid) {
   return children;
 }
 
-function command_line(pid) {
+export function command_line(pid) {
   try {
     return readFileSync(`/proc/${pid}/cmdline`, "utf8").split("\0");
   } catch {
