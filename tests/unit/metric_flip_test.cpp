@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 
 #include "metric_pictures.h"
@@ -166,6 +168,38 @@ TEST(Magma, IsWithinALevelOfTheOriginal) {
     const int original[2][4] = {{128, 183, 55, 121}, {51, 59, 15, 112}};
     for (const auto& point : original)
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(magma()[std::size_t(point[0])][std::size_t(c)], point[c + 1], 1);
+}
+
+// Computed in double precision directly from both papers' formulas by another program, with filters in two dimensions,
+// whose LDR-FLIP agrees with the values above: the exposures, the ACES curve and the greatest value of each pixel.
+TEST(HdrFlip, OfPicturesOverWhite) {
+    const auto four_times = [](int width, int height, const auto& level) {
+        Image image = picture(width, height, level);
+        for (float& value : image.rgba) value *= 4;
+        return image;
+    };
+    const auto found =
+        test::values(four_times(12, 9, test::busy), four_times(12, 9, test::busy_distorted)).at("hdr_flip");
+    EXPECT_NEAR(found["mean"], 0.498885, 2e-4);
+    EXPECT_NEAR(found["weighted_median"], 0.492061, 2e-4);
+    EXPECT_NEAR(found["p99"], 0.691281, 2e-4);
+    EXPECT_NEAR(found["max"], 0.697933, 2e-4);
+    EXPECT_EQ(found["exposures"], 2);
+}
+
+TEST(HdrFlip, OfOnePixel) {
+    const auto of = [](const std::array<float, 3>& one, const std::array<float, 3>& two) {
+        Image reference(1, 1), other(1, 1);
+        std::ranges::copy(one, reference.rgba.begin());
+        std::ranges::copy(two, other.rgba.begin());
+        return test::values(reference, other).at("hdr_flip");
+    };
+    EXPECT_NEAR(of({2, 2, 2}, {1.5f, 1.5f, 1.5f})["mean"], 0.225230, 2e-4);
+    EXPECT_NEAR(of({3, 1, 0.5f}, {3, 1.2f, 0.5f})["mean"], 0.422277, 2e-4);
+    EXPECT_EQ(of({2, 2, 2}, {2, 2, 2})["mean"], 0.0);
+    EXPECT_TRUE(of({1, 1, 1}, {0, 0, 0})["mean"].is_null());
+    EXPECT_EQ(of({1, 1, 1}, {0, 0, 0})["reason"], "no value is over 1: flip says it all");
+    EXPECT_EQ(of({2, 2, 2}, {INFINITY, 2, 2})["reason"], "a picture has a NaN or an infinity");
 }
 
 }  // namespace

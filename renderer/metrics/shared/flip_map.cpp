@@ -56,6 +56,9 @@ struct Constants {
     Taps<feature_radius> smooth, slope, curvature;
     float greatest_color_difference;
     Constants();
+
+    float linear_of(std::uint8_t level) const { return linear[level]; }
+    static float linear_of(float value) { return value; }
 };
 
 /// Standard deviation in pixels of exp(-pi^2 d^2 / b), d in degrees.
@@ -181,18 +184,19 @@ struct Tile {
 
 /// Opponent colors Y, X - Y and Y - Z, relative to white. They are YCxCz without its scales and offset, which
 /// normalised filters do not change; Y is also the (Y + 16) / 116 that the feature filters see.
-void load(const Constants& constants, const Image8& image, const Tile& tile, Scratch& scratch) {
+template <typename Picture>
+void load(const Constants& constants, const Picture& image, const Tile& tile, Scratch& scratch) {
     const auto& m = constants.to_xyz;
     std::array<int, source_width> column;
     for (int x = 0; x < source_width; ++x) column[x] = std::clamp(tile.left + x - margin, 0, image.width_px - 1);
     for (int y = 0; y < tile.height + 2 * margin; ++y) {
-        const std::uint8_t* row = image.pixel(0, std::clamp(tile.top + y - margin, 0, image.height_px - 1));
+        const auto* row = image.pixel(0, std::clamp(tile.top + y - margin, 0, image.height_px - 1));
         SourceRow red, green, blue;
         for (int x = 0; x < source_width; ++x) {
-            const std::uint8_t* rgb = row + column[x] * 3;
-            red[x] = constants.linear[rgb[0]];
-            green[x] = constants.linear[rgb[1]];
-            blue[x] = constants.linear[rgb[2]];
+            const auto* rgb = row + column[x] * 3;
+            red[x] = constants.linear_of(rgb[0]);
+            green[x] = constants.linear_of(rgb[1]);
+            blue[x] = constants.linear_of(rgb[2]);
         }
         for (int x = 0; x < source_width; ++x) {
             const float luminance = m[1][0] * red[x] + m[1][1] * green[x] + m[1][2] * blue[x];
@@ -267,7 +271,8 @@ void feature_row(const Constants& constants, const Scratch& scratch, int y, Perc
     }
 }
 
-void perceive(const Constants& constants, const Image8& image, const Tile& tile, Scratch& scratch, Perceived& to) {
+template <typename Picture>
+void perceive(const Constants& constants, const Picture& image, const Tile& tile, Scratch& scratch, Perceived& to) {
     load(constants, image, tile, scratch);
     filter_rows(constants, tile.height + 2 * margin, scratch);
     for (int y = 0; y < tile.height; ++y) {
@@ -296,11 +301,10 @@ void compare_row(const Constants& constants, const Perceived& one, const Perceiv
     }
 }
 
-}  // namespace
-
-std::vector<float> flip_map(const Image8& reference, const Image8& test, int max_threads) {
+template <typename Picture>
+std::vector<float> map_of(const Picture& reference, const Picture& test, int max_threads) {
     static const Constants constants;
-    std::vector<float> map(reference.pixel_count());
+    std::vector<float> map(std::size_t(reference.width_px) * reference.height_px);
     const int columns = (reference.width_px + tile_width - 1) / tile_width;
     const int rows = (reference.height_px + tile_height - 1) / tile_height;
     const auto worker = [&](WorkQueue& queue) {
@@ -320,6 +324,16 @@ std::vector<float> flip_map(const Image8& reference, const Image8& test, int max
     };
     share_work(columns * rows, worker, max_threads);
     return map;
+}
+
+}  // namespace
+
+std::vector<float> flip_map(const Image8& reference, const Image8& test, int max_threads) {
+    return map_of(reference, test, max_threads);
+}
+
+std::vector<float> flip_map(const LinearPicture& reference, const LinearPicture& test, int max_threads) {
+    return map_of(reference, test, max_threads);
 }
 
 }  // namespace sheer

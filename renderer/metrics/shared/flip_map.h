@@ -12,4 +12,16 @@ namespace sheer {
 /// the result does not depend on `max_threads` (0: one per core).
 std::vector<float> flip_map(const Image8& reference, const Image8& test, int max_threads = 0);
 
+/// Red, green and blue of linear light in 0..1, rows from the top down.
+struct LinearPicture {
+    int width_px = 0;
+    int height_px = 0;
+    std::vector<float> rgb;  ///< width * height * 3
+
+    const float* pixel(int x, int y) const { return &rgb[(std::size_t(y) * width_px + x) * 3]; }
+};
+
+/// The same of pictures that are not rounded.
+std::vector<float> flip_map(const LinearPicture& reference, const LinearPicture& test, int max_threads = 0);
+
 }  // namespace sheer
