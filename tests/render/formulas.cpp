@@ -74,38 +74,6 @@ double front_to_back(const Stack& stack, PixelFormat format, Range (*round_trans
 
 }  // namespace
 
-Color mix(const Color& a, const Color& b, double weight_of_b) {
-    Color mixed;
-    for (std::size_t i = 0; i < 3; ++i) mixed[i] = (1 - weight_of_b) * a[i] + weight_of_b * b[i];
-    return mixed;
-}
-
-Stack sorted(Stack stack) {
-    std::ranges::stable_sort(stack.fragments, std::greater(), &Fragment::depth);
-    return stack;
-}
-
-Color over(const Stack& stack) {
-    Color color = stack.below;
-    for (const Fragment& fragment : stack.fragments) color = mix(color, fragment.color, fragment.alpha);
-    return color;
-}
-
-Color over_by_depth(const Stack& stack) {
-    return over(sorted(stack));
-}
-
-Color nearest_of(const Stack& stack, double least_alpha, const Color& otherwise) {
-    float nearest_depth = 2;
-    Color color = otherwise;
-    for (const Fragment& fragment : stack.fragments) {
-        if (fragment.alpha < least_alpha || fragment.depth > nearest_depth) continue;
-        nearest_depth = fragment.depth;
-        color = fragment.color;
-    }
-    return color;
-}
-
 double step_of(PixelFormat format) {
     return format == PixelFormat::rgba8 ? 1.0 / 255 : format == PixelFormat::rgba16f ? 0x1p-10 : 0x1p-23;
 }
@@ -131,15 +99,7 @@ double rounded_with_opacity(const Stack& stack, PixelFormat format) {
 }
 
 double sample_variance(const Stack& stack) {
-    const Color mean = over_by_depth(stack);
-    double greatest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        Stack squared = stack;
-        squared.below[i] *= squared.below[i];
-        for (Fragment& fragment : squared.fragments) fragment.color[i] *= fragment.color[i];
-        greatest = std::max(greatest, over_by_depth(squared)[i] - mean[i] * mean[i]);
-    }
-    return greatest;
+    return std::ranges::max(litmus::variance_of_sample(stack));
 }
 
 double mean_bound(double variance, double samples) {

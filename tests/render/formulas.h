@@ -1,21 +1,10 @@
 #pragma once
 #include "renderer/image/image_spec.h"
-#include "tests/render/compositor.h"
+#include "renderer/litmus/formula.h"
 
 namespace sheer::test {
 
-/// (1 - weight) a + weight b.
-Color mix(const Color& a, const Color& b, double weight_of_b);
-
-/// The fragments from far to near; of equal depths, the one submitted later is nearer.
-Stack sorted(Stack stack);
-
-/// The over operator, from the first fragment to the last.
-Color over(const Stack& stack);
-/// The same from far to near: the correct result.
-Color over_by_depth(const Stack& stack);
-/// The nearest fragment with at least this alpha; of equal depths, the one submitted later.
-Color nearest_of(const Stack& stack, double least_alpha, const Color& otherwise);
+using namespace litmus;
 
 /// How far a method's pixel may be from its formula because of rounding alone; it must not be outside 0 to 1.
 using Bound = std::function<double(const Stack& stack, PixelFormat format)>;

@@ -8,7 +8,7 @@
 
 #include "renderer/compare/compare.h"
 #include "renderer/counting/needed.h"
-#include "tests/render/compositor.h"
+#include "tests/render/formulas.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::fragments_test {

@@ -15,8 +15,8 @@ constexpr const char* head = R"(<!-- Made by ./dev docs from the descriptions in
 What each method must get right and what, by its theory, it gets wrong, tested for every method by
 `tests/render/litmus_test.cpp`. **passes**: no color of any pixel is off by more than three 8-bit levels. **fails**: some color
 is off by six or more; the test also compares the picture with the prediction of the method's formula. The correct picture is
-computed on the CPU in double precision; everything is rendered with `rgba32f` and default parameters unless the variants say
-otherwise. A stochastic method is judged by its mean: what may be chance does not count.
+computed on the CPU in double precision; everything is rendered with `rgba32f` and default parameters unless the scene or the
+variants say otherwise. A stochastic method is judged by its mean: what may be chance does not count.
 
 | | scene | what it is |
 |---|---|---|

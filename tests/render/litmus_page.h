@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/render/litmus_scenes.h"
+#include "renderer/litmus/scenes.h"
 #include "tests/render/method_row.h"
 
 namespace sheer::test {

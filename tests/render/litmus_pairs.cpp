@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "tests/render/litmus_page.h"
-#include "tests/render/litmus_scenes.h"
 
 namespace sheer::test {
 
@@ -35,13 +34,9 @@ std::vector<Pixels> pictures_of(const MethodRow& row, const nlohmann::json& para
     const Formula formula = row.formula(parameters);
     std::vector<Pixels> pictures;
     for (const LitmusSceneInfo& info : litmus_scene_infos()) {
-        if (info.id != "shuffled") {
-            pictures.push_back(pixels_of(litmus_scene(info.id), row, formula));
-            continue;
-        }
         pictures.emplace_back();
-        for (const std::uint64_t order : {0, 1, 2, 3, 4, 5})
-            std::ranges::copy(pixels_of(shuffled_scene(order), row, formula), std::back_inserter(pictures.back()));
+        for (const std::string& id : info.scene_ids)
+            std::ranges::copy(pixels_of(litmus_scene(id), row, formula), std::back_inserter(pictures.back()));
     }
     return pictures;
 }

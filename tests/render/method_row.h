@@ -14,7 +14,7 @@ struct MethodVariant {
     std::size_t most_layers = 1024;  ///< the most that the method can draw or its formula covers
 };
 
-/// What a method's theory says about some litmus scenes, by their ids (litmus_scenes.h).
+/// What a method's theory says about some litmus scenes, by their ids (renderer/litmus/scenes.h).
 struct LitmusExpectation {
     std::vector<std::string> scenes;
     bool passes;

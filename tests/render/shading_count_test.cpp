@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "renderer/compare/compare.h"
-#include "tests/render/compositor.h"
+#include "tests/render/formulas.h"
 #include "tests/render/render_test.h"
 
 namespace sheer::test::shading_count_test {

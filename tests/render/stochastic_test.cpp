@@ -30,18 +30,6 @@ Stack stack_of(const json& scene) {
     return Compositor(scene, size_px, {0.2, 0.4, 0.6}).stack(1, 1);
 }
 
-/// Of one sample: sum w_i c_i^2 - C^2 in each channel.
-Color variance_of(const Stack& stack) {
-    Stack squared = stack;
-    for (double& channel : squared.below) channel *= channel;
-    for (Fragment& fragment : squared.fragments)
-        for (double& channel : fragment.color) channel *= channel;
-    const Color mean = over_by_depth(stack);
-    Color variance = over_by_depth(squared);
-    for (std::size_t i = 0; i < 3; ++i) variance[i] -= mean[i] * mean[i];
-    return variance;
-}
-
 /// How many standard deviations the mean of the picture is from `expected` in the channel where it is furthest.
 double deviations(const Image& image, const Color& expected, const Color& variance, double samples) {
     double most = 0;
@@ -71,7 +59,7 @@ class Stochastic : public testing::Test {
 /// in 99.
 TEST_F(Stochastic, HasTheMeanOfTheOverOperator) {
     const Stack stack = stack_of(three_layers());
-    const Color expected = over_by_depth(stack), variance = variance_of(stack);
+    const Color expected = over_by_depth(stack), variance = variance_of_sample(stack);
     Color biased = expected;
     for (double& channel : biased) channel *= 1.02;
     int alarms = 0, found = 0;
@@ -88,7 +76,7 @@ TEST_F(Stochastic, HasTheMeanOfTheOverOperator) {
 /// sqrt(2 / n).
 TEST_F(Stochastic, HasTheVarianceOfItsSamples) {
     const Stack stack = stack_of(three_layers());
-    const Color expected = over_by_depth(stack), variance = variance_of(stack);
+    const Color expected = over_by_depth(stack), variance = variance_of_sample(stack);
     const Image independent = picture(three_layers(), {{"passes", 16}, {"masks", "independent"}}),
                 stratified = picture(three_layers(), {{"passes", 16}});
     for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -5,13 +5,14 @@ namespace sheer::test {
 MethodRow row_alpha_test() {
     return {
         .id = "alpha_test",
-        .formula = [](const nlohmann::json&) -> Formula {
-            return [](const Stack& stack) { return nearest_of(stack, 0.5, stack.below); };
-        },
+        .formula = formula_of("alpha_test"),
         .variants = {{nlohmann::json::object()}, {{{"order", "near_to_far"}}}},
         .litmus = {{"",
                     {nlohmann::json::object(), {{"order", "near_to_far"}}},
                     {{{"shuffled"}, passes, "the nearest fragment with enough alpha wins by the depth test"},
+                     {{"overflow"}, passes, "alpha 0.96 is drawn as 1, and 32 layers of it let nothing through"},
+                     {{"self_overlap"}, fails, "alpha from 0.5 up is drawn as 1, the rest as 0"},
+                     {{"fade"}, fails, "the model is there from alpha 0.5 on, and not before"},
                      {{"unequal", "window", "close_pair", "interleaved"},
                       fails,
                       "alpha from 0.5 up is drawn as 1, the rest as 0"},

@@ -4,20 +4,6 @@ namespace sheer::test {
 
 namespace {
 
-/// Of n samples a fragment covers those i with alpha > i / n, which is llvmpipe's rule; each shows its nearest
-/// fragment.
-Color covered(const Stack& stack, int samples) {
-    Color mean = {};
-    for (int sample = 0; sample < samples; ++sample) {
-        Stack covering{stack.below, {}};
-        for (const Fragment& fragment : stack.fragments)
-            if (fragment.alpha * samples > sample) covering.fragments.push_back(fragment);
-        const Color seen = nearest_of(covering, 0, stack.below);
-        for (std::size_t i = 0; i < 3; ++i) mean[i] += seen[i] / samples;
-    }
-    return mean;
-}
-
 /// Each sample is rounded, and so is their mean.
 double samples_bound(const Stack&, PixelFormat format) {
     return format == PixelFormat::rgba32f ? 1e-5 : step_of(format);
@@ -28,13 +14,17 @@ double samples_bound(const Stack&, PixelFormat format) {
 MethodRow row_alpha_to_coverage() {
     return {
         .id = "alpha_to_coverage",
-        .formula = [](const nlohmann::json&) -> Formula {
-            return [](const Stack& stack) { return covered(stack, 4); };
-        },
+        .formula = formula_of("alpha_to_coverage"),
         .variants = {{nlohmann::json::object(), samples_bound, true}},
         .litmus = {{"",
                     {nlohmann::json::object()},
                     {{{"shuffled"}, passes, "in each sample the nearest fragment wins by the depth test"},
+                     {{"overflow"}, passes, "alpha 0.96 covers all four samples"},
+                     {{"self_overlap"}, fails, "0.4 covers two of four samples and 0.8 all of them"},
+                     {{"fade"},
+                      passes,
+                      "all surfaces of a pixel cover the same samples, one to four of four, so the nearest hides the "
+                      "others in each"},
                      {{"unequal", "window", "close_pair", "interleaved"},
                       fails,
                       "four samples have five levels of coverage, and a near layer hides a far one in all samples that "

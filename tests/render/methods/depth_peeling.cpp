@@ -7,15 +7,22 @@ MethodRow row_depth_peeling() {
         .id = "depth_peeling",
         .formula = [](const nlohmann::json&) -> Formula { return over_by_depth; },
         .variants = {{nlohmann::json::object()}},
-        .litmus = {{"",
-                    {nlohmann::json::object()},
-                    {{{"shuffled"}, passes, "each peel is the nearest remaining fragment, whatever the order"},
-                     {{"black", "white", "checker", "alpha_to_0", "alpha_to_1", "one_layer", "64_layers", "unequal",
-                       "window", "close_pair", "interleaved"},
-                      passes,
-                      "every layer is peeled and composited in 32 bits"},
-                     {{"opaque_front", "opaque_behind", "opaque_between"}, passes, "it peels up to the opaque depth"},
-                     {{"glass", "leaves"}, passes, "it peels per pixel, not per primitive"}}}},
+        .litmus =
+            {{"",
+              {nlohmann::json::object()},
+              {{{"shuffled"}, passes, "each peel is the nearest remaining fragment, whatever the order"},
+               {{"overflow"}, passes, "it sums nothing that could overflow; of one color, the layers have no order"},
+               {{"self_overlap"}, passes, "it sorts the fragments of each pixel, not primitives"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
+               {{"black", "white", "checker", "alpha_to_0", "alpha_to_1", "one_layer", "64_layers", "unequal", "window",
+                 "close_pair", "interleaved"},
+                passes,
+                "every layer is peeled and composited in 32 bits"},
+               {{"opaque_front", "opaque_behind", "opaque_between"}, passes, "it peels up to the opaque depth"},
+               {{"glass", "leaves"}, passes, "it peels per pixel, not per primitive"}}}},
     };
 }
 

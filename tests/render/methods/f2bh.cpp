@@ -16,6 +16,12 @@ MethodRow row_f2bh() {
                {{"first_batch", 1}, {"growth", 1}, {"tile_px", 4}},
                {{"first_batch", 1}, {"growth", 1}, {"tile_px", 4}, {"within_batch", "nothing"}}},
               {{{"shuffled"}, passes, "it sorts before it draws"},
+               {{"overflow"}, passes, "it sums nothing that could overflow; of one color, the layers have no order"},
+               {{"self_overlap"}, fails, "the hull is drawn whole, by its middle, which is behind the part within it"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
                {{"black", "white", "checker", "alpha_to_0", "alpha_to_1", "one_layer", "64_layers", "unequal", "window",
                  "close_pair", "interleaved"},
                 passes,

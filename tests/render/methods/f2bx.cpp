@@ -11,6 +11,7 @@ MethodRow row_f2bx() {
         .litmus = {{"",
                     {nlohmann::json::object()},
                     {{{"shuffled"}, passes, "the picture is black in any order"},
+                     {{"overflow", "self_overlap", "fade"}, fails, "black: nothing comes through"},
                      {{"black", "white", "checker", "alpha_to_0", "alpha_to_1", "glass", "leaves", "opaque_front",
                        "opaque_behind", "opaque_between", "one_layer", "64_layers", "unequal", "window", "close_pair",
                        "interleaved"},

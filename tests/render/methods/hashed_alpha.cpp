@@ -27,6 +27,12 @@ MethodRow row_hashed_alpha() {
             {{"hashed_alpha, independent layers",
               {independent(4096)},
               {{{"shuffled"}, passes, "in each frame the nearest fragment over its threshold wins by the depth test"},
+               {{"overflow"}, passes, "it sums nothing that could overflow; of one color, the layers have no order"},
+               {{"self_overlap"}, passes, "the depth test decides per pixel"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
                {{"black", "white", "checker", "alpha_to_0", "one_layer", "64_layers", "unequal", "window", "close_pair",
                  "interleaved", "opaque_between", "opaque_behind"},
                 passes,

@@ -6,27 +6,6 @@ namespace sheer::test {
 
 namespace {
 
-/// Slides 20 and 34; if there is nothing to sum, what is behind.
-Color sums(const Stack& stack, bool full) {
-    double alphas = 0, reciprocals = 0, product = 1;
-    Color colors = {};
-    for (const Fragment& fragment : stack.fragments) {
-        if (fragment.alpha == 0) continue;
-        alphas += fragment.alpha;
-        reciprocals += 1 / fragment.alpha;
-        product *= fragment.alpha;
-        for (std::size_t i = 0; i < 3; ++i) colors[i] += fragment.alpha * fragment.color[i];
-    }
-    if (alphas == 0) return stack.below;
-    Color color;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double d = stack.below[i];
-        color[i] = d + colors[i] - d * alphas;
-        if (full) color[i] += d * product - d * reciprocals * product;
-    }
-    return color;
-}
-
 /// The sums of n colors and n alphas reach n and are rounded n times, in 16-bit floats unless the image has 32. The
 /// opaque picture, rounded by half a step, has a weight of at most n.
 double simple_bound(const Stack& stack, PixelFormat format) {
@@ -48,15 +27,15 @@ double full_bound(const Stack& stack, PixelFormat format) {
 MethodRow row_meshkin() {
     return {
         .id = "meshkin",
-        .formula = [](const nlohmann::json& parameters) -> Formula {
-            const bool full = parameters.value("variant", "simple") == "full";
-            return [full](const Stack& stack) { return sums(stack, full); };
-        },
+        .formula = formula_of("meshkin"),
         .variants = {{nlohmann::json::object(), simple_bound}, {{{"variant", "full"}}, full_bound}},
         .litmus =
             {{"meshkin, simple",
               {nlohmann::json::object()},
               {{{"shuffled"}, passes, "sums do not depend on the order, except for the rounding of each addition"},
+               {{"overflow"}, fails, "the alphas sum to 31, so the background is subtracted 30 times too often"},
+               {{"self_overlap"}, fails, "the product of 0.4 and 0.8 is left out"},
+               {{"fade"}, fails, "what is left out matters from alpha 0.25 up, and no model is known"},
                {{"unequal", "window", "close_pair", "interleaved"},
                 fails,
                 "what is left out grows with the products of the alphas, and the background is subtracted more often "
@@ -80,6 +59,12 @@ MethodRow row_meshkin() {
               {{{"shuffled"},
                 passes,
                 "sums and products do not depend on the order, except for the rounding of each step"},
+               {{"overflow"},
+                fails,
+                "the product of 32 alphas times the sum of their reciprocals is no picture of anything but four "
+                "layers, and the colors sum to 31 times their brightness"},
+               {{"self_overlap"}, fails, "its additional terms are those of four layers"},
+               {{"fade"}, fails, "its additional terms are those of four layers, and no model is known"},
                {{"unequal", "window", "close_pair", "interleaved"},
                 fails,
                 "what is left out grows with the products of the alphas, and its additional terms are those of four "

@@ -7,42 +7,6 @@ namespace sheer::test {
 
 namespace {
 
-struct TransmittedSums {
-    double count = 0, weights = 0;
-    Color reflected = {}, modulation = {1, 1, 1};
-};
-
-TransmittedSums transmitted_sums(const Stack& stack, double transmission) {
-    TransmittedSums sums;
-    for (const Fragment& fragment : stack.fragments) {
-        if (fragment.alpha == 0) continue;
-        ++sums.count;
-        const double mean = transmission * (fragment.color[0] + fragment.color[1] + fragment.color[2]) / 3;
-        const double net_coverage = fragment.alpha * (1 - mean);
-        const double root = (8 * net_coverage + 0.01) * (1 - 0.95 * fragment.depth);
-        const double weight = std::clamp(1e3 * std::pow(root, 3), 1e-2, 3e2);
-        sums.weights += weight * net_coverage;
-        for (std::size_t i = 0; i < 3; ++i) {
-            sums.reflected[i] += weight * fragment.alpha * (1 - transmission) * fragment.color[i];
-            sums.modulation[i] *= 1 - fragment.alpha * (1 - transmission * fragment.color[i]);
-        }
-    }
-    return sums;
-}
-
-Formula reflected_over_transmitted(const nlohmann::json& parameters) {
-    return [transmission = parameters.value("transmission", 0.0)](const Stack& stack) {
-        const TransmittedSums sums = transmitted_sums(stack, transmission);
-        if (sums.count == 0) return stack.below;
-        Color color;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double average = sums.reflected[i] / std::max(sums.weights, 1e-5);
-            color[i] = average * (1 - sums.modulation[i]) + stack.below[i] * sums.modulation[i];
-        }
-        return color;
-    };
-}
-
 /// As that of WBOIT: n roundings of both sums by 2^-10, and of the product by as much. The reflected colors may be
 /// brighter than 1 by the net coverage.
 double transmitted_bound(const Stack& stack, PixelFormat format) {
@@ -57,7 +21,7 @@ double transmitted_bound(const Stack& stack, PixelFormat format) {
 MethodRow row_phenomenological() {
     return {
         .id = "phenomenological",
-        .formula = reflected_over_transmitted,
+        .formula = formula_of("phenomenological"),
         .weighs_depths = true,
         .variants = {{nlohmann::json::object(), transmitted_bound, false, 64},
                      {{{"transmission", 0.5}}, transmitted_bound, false, 64},
@@ -65,6 +29,15 @@ MethodRow row_phenomenological() {
         .litmus = {{"",
                     {nlohmann::json::object()},
                     {{{"shuffled"}, passes, "sums and products do not depend on the order, except for rounding"},
+                     {{"overflow"}, passes, "its weights are cut at 300, so 32 layers sum to 9,600 at most"},
+                     {{"self_overlap"},
+                      fails,
+                      "the weights are at their limit of 300 for both, so the part within shows as much as if it were "
+                      "in front"},
+                     {{"fade"},
+                      fails,
+                      "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                      "model"},
                      {{"unequal", "window", "close_pair", "interleaved"},
                       fails,
                       "the weights do not know what is in front, so of two leaves both show; they are at their limit "
@@ -84,6 +57,9 @@ MethodRow row_phenomenological() {
                    {"phenomenological, transmitting a quarter",
                     {{{"transmission", 0.25}}},
                     {{{"shuffled"}, passes, "sums and products do not depend on the order, except for rounding"},
+                     {{"overflow"}, fails, "a quarter of the color tints what is behind, which these layers hide"},
+                     {{"self_overlap"}, fails, "a quarter of each color is missing, and the rest is a mean"},
+                     {{"fade"}, fails, "a quarter of each color is missing, and the inside shows"},
                      {{"unequal", "window", "close_pair", "interleaved"},
                       fails,
                       "what a quarter of each color tints instead of being reflected is missing"},

@@ -6,19 +6,6 @@ namespace sheer::test {
 
 namespace {
 
-Formula emitted_and_covered(const nlohmann::json& parameters) {
-    return [coverage = parameters.value("coverage", 0.0)](const Stack& stack) {
-        Color sum = {};
-        double transmittance = 1;
-        for (const Fragment& fragment : stack.fragments) {
-            for (std::size_t i = 0; i < 3; ++i) sum[i] += fragment.alpha * fragment.color[i];
-            transmittance *= 1 - coverage * fragment.alpha;
-        }
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += transmittance * stack.below[i];
-        return sum;
-    };
-}
-
 /// In 16-bit floats each of n additions rounds a sum of up to n, each of n factors is off by 2^-11 and rounded.
 double emitted_bound(const Stack& stack, PixelFormat format) {
     const auto layers = static_cast<double>(stack.fragments.size());
@@ -33,7 +20,7 @@ double emitted_bound(const Stack& stack, PixelFormat format) {
 MethodRow row_premultiplied_additive() {
     return {
         .id = "premultiplied_additive",
-        .formula = emitted_and_covered,
+        .formula = formula_of("premultiplied_additive"),
         .variants = {{nlohmann::json::object(), emitted_bound},
                      {{{"coverage", 1}}, emitted_bound},
                      {{{"coverage", 0.375}}, emitted_bound}},
@@ -41,6 +28,9 @@ MethodRow row_premultiplied_additive() {
             {{"",
               {nlohmann::json::object()},
               {{{"shuffled"}, passes, "a sum does not depend on the order, except for the rounding of each addition"},
+               {{"overflow"}, fails, "31 times the color is added"},
+               {{"self_overlap"}, fails, "both colors are added"},
+               {{"fade"}, fails, "all surfaces of the model are added"},
                {{"unequal", "window", "close_pair", "interleaved"}, fails, "all colors are added"},
                {{"black", "white", "checker", "alpha_to_1", "glass", "leaves", "opaque_behind", "64_layers"},
                 fails,
@@ -53,6 +43,9 @@ MethodRow row_premultiplied_additive() {
              {"premultiplied_additive, covering",
               {{{"coverage", 1}}},
               {{{"shuffled"}, passes, "sum and product do not depend on the order, except for rounding"},
+               {{"overflow"}, fails, "the background is right, but 31 times the color is added"},
+               {{"self_overlap"}, fails, "the background is right, but both colors are added"},
+               {{"fade"}, fails, "all surfaces of the model are added"},
                {{"unequal", "window", "close_pair", "interleaved"},
                 fails,
                 "the background is right, but all colors are added"},

@@ -6,36 +6,6 @@ namespace sheer::test {
 
 namespace {
 
-constexpr double alpha_reference = 64.0 / 255;
-
-/// Hathaway's Listing 3.2 with the defaults: 85 % additive, squared, color from the reference up, otherwise black.
-Color mask(const Stack& stack) {
-    double greatest = 0, sum = 0;
-    for (const Fragment& fragment : stack.fragments) {
-        greatest = std::max(greatest, fragment.alpha);
-        sum += fragment.alpha;
-    }
-    const double weight = 0.15 * greatest + 0.85 * std::min(sum, 1.0);
-    return mix(stack.below, nearest_of(stack, alpha_reference, {0, 0, 0}), weight * weight);
-}
-
-/// The mask of all but the last `count` layers as submitted; these are over it if they are not behind its foliage,
-/// which is the nearest fragment from the reference up.
-Color mask_and_after(const Stack& stack, std::size_t count) {
-    Stack foliage{stack.below, {}}, after;
-    float foliage_depth = 2;
-    for (const Fragment& fragment : stack.fragments)
-        if (fragment.submitted + count < stack.transparent_layers) {
-            foliage.fragments.push_back(fragment);
-            if (fragment.alpha >= alpha_reference) foliage_depth = std::min(foliage_depth, fragment.depth);
-        }
-    for (const Fragment& fragment : stack.fragments)
-        if (fragment.submitted + count >= stack.transparent_layers && fragment.depth <= foliage_depth)
-            after.fragments.push_back(fragment);
-    after.below = mask(foliage);
-    return over_by_depth(after);
-}
-
 /// The sum of n alphas is off by n half steps, but is clamped to 1; the square is off by twice that. Two pictures and
 /// the result are rounded.
 double mask_bound(const Stack& stack, PixelFormat format) {
@@ -54,10 +24,7 @@ double mask_bound(const Stack& stack, PixelFormat format) {
 MethodRow row_ssam() {
     return {
         .id = "ssam",
-        .formula = [](const nlohmann::json& parameters) -> Formula {
-            const auto after = parameters.value("drawn_after", std::size_t{0});
-            return [after](const Stack& stack) { return mask_and_after(stack, after); };
-        },
+        .formula = formula_of("ssam"),
         .variants = {{nlohmann::json::object(), mask_bound},
                      {{{"opaque_msaa", 2}}, mask_bound},
                      {{{"drawn_after", 2}}, mask_bound}},
@@ -65,6 +32,11 @@ MethodRow row_ssam() {
             {{"",
               {nlohmann::json::object(), {{"opaque_msaa", 2}}},
               {{{"shuffled"}, passes, "maximum, saturated sum and nearest color do not depend on the order"},
+               {{"overflow"}, passes, "the mask saturates and the nearest color has all of it"},
+               {{"self_overlap"}, fails, "only the nearest color with enough alpha shows, and the mask saturates"},
+               {{"fade"},
+                fails,
+                "the color is that of the nearest surface, but the mask is that of the sum of the alphas, squared"},
                {{"unequal", "window", "close_pair", "interleaved"},
                 fails,
                 "only the nearest color with enough alpha shows, and the mask is that of the sum of the alphas"},

@@ -4,31 +4,11 @@
 
 namespace sheer::test {
 
-namespace {
-
-/// Front to back up to the cap, without fragments under min_alpha. Full pixels have the previous frame behind: in a
-/// uniform picture P(n) = A + T P(n - 1), with P(1) = A + T D.
-Color capped(Stack stack, std::size_t cap, double min_alpha, int frames) {
-    std::erase_if(stack.fragments, [&](const Fragment& fragment) { return fragment.alpha < min_alpha; });
-    stack = sorted(stack);
-    if (stack.fragments.size() <= cap) return over(stack);
-    stack.fragments.erase(stack.fragments.begin(), stack.fragments.end() - static_cast<std::ptrdiff_t>(cap));
-    for (int frame = 1; frame < frames; ++frame) stack.below = over(stack);
-    return over(stack);
-}
-
-}  // namespace
-
 // In the scenes of random layers no pixel reaches the cap, so nothing is cut off or guessed.
 MethodRow row_stencil_cap() {
     return {
         .id = "stencil_cap",
-        .formula = [](const nlohmann::json& parameters) -> Formula {
-            return [=](const Stack& stack) {
-                return capped(stack, parameters.value("layers", std::size_t{8}), parameters.value("min_alpha", 0.02),
-                              parameters.value("frames", 30));
-            };
-        },
+        .formula = formula_of("stencil_cap"),
         .sorts_primitives = true,
         .variants =
             {{{{"layers", 64}, {"min_alpha", 0}, {"frames", 2}}, rounded_front_to_back, false, 64},
@@ -37,6 +17,12 @@ MethodRow row_stencil_cap() {
             {{"",
               {nlohmann::json::object(), {{"zcull", true}}},
               {{{"shuffled"}, passes, "it sorts before it draws"},
+               {{"overflow"}, passes, "the nearest eight let nothing through"},
+               {{"self_overlap"}, fails, "the hull is drawn whole, by its middle, which is behind the part within it"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
                {{"unequal", "window", "close_pair"}, passes, "with fewer layers than the cap of 8 it is F2B"},
                {{"interleaved"},
                 passes,

@@ -81,6 +81,12 @@ MethodRow row_stochastic() {
                {{"passes", 1024}, {"masks", "independent"}},
                {{"passes", 1024}, {"masks", "independent"}, {"variant", "depth"}}},
               {{{"shuffled"}, passes, "in each sample the nearest fragment that covers it wins by the depth test"},
+               {{"overflow"}, passes, "it sums nothing that could overflow; of one color, the layers have no order"},
+               {{"self_overlap"}, passes, "the depth test decides per sample"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
                {{"black", "white", "checker", "alpha_to_0", "one_layer", "64_layers", "unequal", "window", "close_pair",
                  "interleaved", "opaque_between", "opaque_behind"},
                 passes,

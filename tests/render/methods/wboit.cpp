@@ -1,3 +1,5 @@
+#include "renderer/litmus/formulas/wboit.h"
+
 #include "tests/render/method_row.h"
 
 #include <algorithm>
@@ -6,48 +8,6 @@
 namespace sheer::test {
 
 namespace {
-
-/// Equations 7 to 10. In `layers` scenes the distance from the camera is the depth.
-double paper_weight(const std::string& equation, double depth, double alpha, const nlohmann::json& parameters) {
-    if (equation == "equal") return 1;
-    const double z = depth * parameters.value("depth_scale", 1.0);
-    double of_depth = 0;
-    if (equation == "eq7") of_depth = 10 / (1e-5 + std::pow(z / 5, 2) + std::pow(z / 200, 6));
-    if (equation == "eq8") of_depth = 10 / (1e-5 + std::pow(z / 10, 3) + std::pow(z / 200, 6));
-    if (equation == "eq9") of_depth = 0.03 / (1e-5 + std::pow(z / 200, 4));
-    if (equation == "eq10") of_depth = 3e3 * std::pow(1 - depth, 3);
-    return std::min(1.0, alpha * parameters.value("alpha_scale", 1.0)) *
-           std::max(1e-2, std::min(parameters.value("greatest_weight", 3e3), of_depth));
-}
-
-struct WeightedSums {
-    double count = 0, weights = 0, revealage = 1;
-    Color colors = {};
-};
-
-WeightedSums weighted_sums(const Stack& stack, const nlohmann::json& parameters) {
-    WeightedSums sums;
-    for (const Fragment& fragment : stack.fragments) {
-        if (fragment.alpha == 0) continue;
-        const double weight = fragment.alpha * paper_weight(parameters.value("weight", "eq10"), fragment.depth,
-                                                            fragment.alpha, parameters);
-        ++sums.count;
-        sums.weights += weight;
-        sums.revealage *= 1 - fragment.alpha;
-        for (std::size_t i = 0; i < 3; ++i) sums.colors[i] += weight * fragment.color[i];
-    }
-    return sums;
-}
-
-Formula weighted_blend(const nlohmann::json& parameters) {
-    return [=](const Stack& stack) {
-        const WeightedSums sums = weighted_sums(stack, parameters);
-        if (sums.count == 0) return stack.below;
-        Color color;
-        for (std::size_t i = 0; i < 3; ++i) color[i] = sums.colors[i] / sums.weights;
-        return mix(color, stack.below, sums.revealage);
-    };
-}
 
 /// In 16-bit floats each of n additions rounds both sums by 2^-10 of them at most, and what is added to the least sum
 /// by 2^-24; each of n factors 1 - alpha is off by 2^-11 and rounded.
@@ -70,7 +30,7 @@ MethodVariant weighted_variant(const nlohmann::json& parameters, std::size_t mos
 MethodRow row_wboit() {
     return {
         .id = "wboit",
-        .formula = weighted_blend,
+        .formula = formula_of("wboit"),
         .weighs_depths = true,
         .variants = {weighted_variant(nlohmann::json::object(), 16), weighted_variant({{"weight", "equal"}}, 1024),
                      weighted_variant({{"weight", "eq7"}}, 16),
@@ -81,6 +41,19 @@ MethodRow row_wboit() {
             {{"",
               {nlohmann::json::object()},
               {{{"shuffled"}, passes, "sums and products do not depend on the order, except for rounding"},
+               {{"overflow"},
+                fails,
+                "the weights sum to 76,000, over what 16 bits hold: the mean is divided by 65,504 on llvmpipe, which "
+                "is "
+                "too bright, and by infinity on other devices, which gives black"},
+               {{"self_overlap"},
+                fails,
+                "the weights follow the square of the alpha and the cube of the depth, so the part of 0.8 outweighs "
+                "the hull of 0.4 in front of it"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
                {{"unequal", "close_pair", "interleaved"},
                 fails,
                 "the weights follow the depth, not what is in front: two layers at nearly one depth have nearly the "
@@ -107,6 +80,12 @@ MethodRow row_wboit() {
              {"wboit, equal weights",
               {{{"weight", "equal"}}},
               {{{"shuffled"}, passes, "sums and products do not depend on the order, except for rounding"},
+               {{"overflow"}, passes, "without weights the alphas sum to 31"},
+               {{"self_overlap"}, fails, "the mean color does not know what is in front"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
                {{"unequal", "window", "close_pair", "interleaved"},
                 fails,
                 "the mean color does not know what is in front, so of two leaves both show"},

@@ -1,3 +1,5 @@
+#include "renderer/litmus/formulas/weighted_average.h"
+
 #include "tests/render/method_row.h"
 
 #include <algorithm>
@@ -6,31 +8,6 @@
 namespace sheer::test {
 
 namespace {
-
-/// The sums of a pixel; fragments of alpha 0 are dropped.
-struct AverageSums {
-    double count = 0, alphas = 0;
-    Color colors = {};
-};
-
-AverageSums average_sums(const Stack& stack) {
-    AverageSums sums;
-    for (const Fragment& fragment : stack.fragments) {
-        if (fragment.alpha == 0) continue;
-        ++sums.count;
-        sums.alphas += fragment.alpha;
-        for (std::size_t i = 0; i < 3; ++i) sums.colors[i] += fragment.alpha * fragment.color[i];
-    }
-    return sums;
-}
-
-Color average_layers(const Stack& stack) {
-    const AverageSums sums = average_sums(stack);
-    if (sums.count == 0) return stack.below;
-    Color color;
-    for (std::size_t i = 0; i < 3; ++i) color[i] = sums.colors[i] / sums.alphas;
-    return mix(color, stack.below, std::pow(1 - sums.alphas / sums.count, sums.count));
-}
 
 /// In 16-bit floats a sum of n numbers is rounded n times, by 2^-10 of it at most. The quotient of two such sums is the
 /// average color; the transmittance falls with the sum of the alphas by (1 - a / n)^(n - 1).
@@ -48,12 +25,21 @@ double average_bound(const Stack& stack, PixelFormat format) {
 MethodRow row_weighted_average() {
     return {
         .id = "weighted_average",
-        .formula = [](const nlohmann::json&) -> Formula { return average_layers; },
+        .formula = formula_of("weighted_average"),
         .variants = {{nlohmann::json::object(), average_bound}},
         .litmus =
             {{"",
               {nlohmann::json::object()},
               {{{"shuffled"}, passes, "sums do not depend on the order, except for the rounding of each addition"},
+               {{"overflow"}, passes, "the alphas sum to 31"},
+               {{"self_overlap"},
+                fails,
+                "the mean color does not know what is in front, and the mean alpha of 0.6 lets another part of the "
+                "background through"},
+               {{"fade"},
+                fails,
+                "the inside of a model shows, as of any layers of that alpha: it does not know that they are one "
+                "model"},
                {{"unequal", "window", "close_pair", "interleaved"},
                 fails,
                 "the mean color does not know what is in front, so of two leaves both show; where alphas differ, their "
