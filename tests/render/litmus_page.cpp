@@ -18,6 +18,9 @@ is off by six or more; the test also compares the picture with the prediction of
 computed on the CPU in double precision; everything is rendered with `rgba32f` and default parameters unless the scene or the
 variants say otherwise. A stochastic method is judged by its mean: what may be chance does not count.
 
+`sheer litmus export DIR` writes the scenes for other renderers, and `sheer litmus identify DIR` names the formula behind their
+pictures ([the command line](command-line.md#litmus)).
+
 | | scene | what it is |
 |---|---|---|
 )";
