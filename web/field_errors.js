@@ -12,11 +12,15 @@ function place_of(form, pointer) {
 
 const own_slot = (place) => place.querySelector(":scope > .error-text") ?? place.querySelector(".error-text");
 
+/** Event "error-text" tells the field what is shown of it. */
+function write(slot, text) {
+  slot.textContent = text;
+  slot.hidden = text === "";
+  slot.parentElement.dispatchEvent(new CustomEvent("error-text", { detail: text }));
+}
+
 export function clear_errors(form) {
-  for (const slot of form.querySelectorAll("[data-pointer] > .error-text:not([hidden])")) {
-    slot.hidden = true;
-    slot.textContent = "";
-  }
+  for (const slot of form.querySelectorAll("[data-pointer] > .error-text:not([hidden])")) write(slot, "");
   for (const input of form.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
 }
 
@@ -29,8 +33,7 @@ export function show_errors(form, errors) {
     if (!slot) return true;
     const exact = place.dataset.pointer === pointer;
     const text = exact ? detail : `${pointer.slice(place.dataset.pointer.length + 1)}: ${detail}`;
-    slot.textContent = slot.hidden ? text : `${slot.textContent}; ${text}`;
-    slot.hidden = false;
+    write(slot, slot.hidden ? text : `${slot.textContent}; ${text}`);
     for (let fold = place.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
     if (place.classList.contains("field")) {
       for (const input of place.querySelectorAll("input, select, textarea")) input.setAttribute("aria-invalid", "true");

@@ -1,92 +1,19 @@
 // Form fields made from the service's descriptions of parameters.
 import { asset_control } from "./asset_field.js";
 import { el, select, set_children, unique_id } from "./dom.js";
+import { field_frame } from "./field_frame.js";
 import { words } from "./format.js";
+import { number_input } from "./number_input.js";
+import { numbered_lines } from "./source_field.js";
 import { pointer_of } from "./spec_model.js";
 
 const LONG_TEXT_BYTES = 200;
-const LONG_HINT = 90;
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
-
-const is_whole = (param) => param.kind === "integer" || param.whole === true;
-
-const tiniest = Number.MIN_VALUE;
-/** The nearest number to `bound` on the side of `direction`, 1 or -1. */
-function next_number(bound, direction) {
-  if (bound === 0) return direction * tiniest;
-  const bits = new DataView(new ArrayBuffer(8));
-  bits.setFloat64(0, bound);
-  bits.setBigInt64(0, bits.getBigInt64(0) + BigInt(bound > 0 === direction > 0 ? 1 : -1));
-  return bits.getFloat64(0);
-}
-
-/** min, max and step of an input, which has no exclusive bounds: instead of those it gets the numbers next to them. */
-export function input_range(param) {
-  const bound = (value, direction) => {
-    if (typeof value !== "number") return null;
-    if (!param.exclusive) return value;
-    return is_whole(param) ? value + direction : next_number(value, direction);
-  };
-  return { min: bound(param.min, 1), max: bound(param.max, -1), step: is_whole(param) ? (param.step ?? 1) : "any" };
-}
-
-/** The value of a number input: undefined if it is empty, null if it is not a number, which the service refuses. */
-function read_number(input) {
-  if (input.validity.badInput) return null;
-  return input.value === "" ? undefined : Number(input.value);
-}
-
-export function range_text(param) {
-  const has_min = typeof param.min === "number";
-  const has_max = typeof param.max === "number";
-  if (has_min && has_max)
-    return param.exclusive ? `over ${param.min}, under ${param.max}` : `${param.min} to ${param.max}`;
-  if (has_min) return `${param.exclusive ? "over" : "from"} ${param.min}`;
-  return has_max ? `${param.exclusive ? "under" : "up to"} ${param.max}` : "";
-}
-
-/** A labelled field with its hint and room for its error. */
-export function field_frame(param, path, control, { for_id, group = false } = {}) {
-  const suffix = param.unit ? `_${param.unit.toLowerCase()}` : "";
-  const name = suffix && param.name.endsWith(suffix) ? param.name.slice(0, -suffix.length) : param.name;
-  const caption = [words(name), param.unit ? el("span", { class: "unit" }, param.unit) : null];
-  const hint_text = [param.summary, range_text(param)].filter(Boolean).join("; ");
-  const hint_id = unique_id("hint");
-  const error_id = unique_id("error");
-  const targets = control.matches("input, select, textarea")
-    ? [control]
-    : [...control.querySelectorAll("input, select, textarea")];
-  for (const target of targets) target.setAttribute("aria-describedby", `${hint_id} ${error_id}`);
-  const hint = el("p", { class: "hint", id: hint_id }, hint_text);
-  const wide = hint_text.length > LONG_HINT ? " wide" : "";
-  return el(
-    group ? "fieldset" : "div",
-    { class: `field kind-${param.kind}${wide}`, "data-pointer": pointer_of(path) },
-    group ? el("legend", {}, caption) : el("label", { for: for_id }, caption),
-    group && param.fields ? [hint, control] : [control, hint],
-    el("p", { class: "error-text", id: error_id, hidden: true }),
-  );
-}
 
 /** Removes the value from the spec if it is the default. */
 function store(model, path, param, value) {
   const is_default = !param.required && same(value, param.default);
   model.set(path, value === undefined || is_default ? undefined : value);
-}
-
-function number_input(param, value, on_change, label = null, id = null) {
-  const input = el("input", {
-    type: "number",
-    id,
-    "aria-label": label,
-    ...input_range(param),
-    inputmode: is_whole(param) ? "numeric" : "decimal",
-    value: value ?? "",
-    placeholder: typeof param.default === "number" ? String(param.default) : null,
-    required: param.required,
-    oninput: () => on_change(read_number(input)),
-  });
-  return input;
 }
 
 function number_field(param, path, model) {
@@ -202,7 +129,11 @@ function text_field(param, path, model) {
     placeholder: param.placeholder,
     oninput: () => store(model, path, param, input.value === "" && !param.required ? undefined : input.value),
   });
-  return field_frame(param, path, input, { for_id: id });
+  if (!long) return field_frame(param, path, input, { for_id: id });
+  const lines = numbered_lines(input);
+  const frame = field_frame(param, path, lines.element, { for_id: id });
+  frame.addEventListener("error-text", ({ detail }) => lines.mark(detail));
+  return frame;
 }
 
 const to_hex = (rgb) =>

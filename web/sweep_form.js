@@ -1,6 +1,7 @@
 // The part of the form for sweeps: which parameters are varied in one job, and over which values.
 import { el, select, set_children, unique_id } from "./dom.js";
-import { field_frame, first_value, range_text } from "./param_form.js";
+import { field_frame, range_text } from "./field_frame.js";
+import { first_value } from "./param_form.js";
 import { pointer_of, same_id } from "./spec_model.js";
 import { field_name } from "./sweep.js";
 
