@@ -10,6 +10,15 @@
 
 namespace sheer {
 
+namespace {
+
+/// What forms begin with where the user's own shading is chosen.
+constexpr const char* starter_glsl =
+    "float rings = 0.5 + 0.5 * sin(60.0 * length(uv - 0.5));\n"
+    "return vec4(tint.rgb * rings, tint.a);\n";
+
+}  // namespace
+
 std::vector<SceneInfo> make_scenes();
 
 const std::vector<SceneInfo>& all_scenes() {
@@ -31,8 +40,8 @@ std::vector<Param> SceneInfo::look_parameters() const {
     std::vector<std::string> names;
     for (const Shading& shading : shadings::all) names.emplace_back(shading.name);
     if (!own_shading.empty()) names.push_back(own_shading);
-    Param glsl =
-        Param::text("glsl", "body of vec4 real_work(vec2 uv, vec4 tint), see docs/shading.md", "", max_glsl_bytes);
+    Param glsl = Param::text("glsl", "body of vec4 real_work(vec2 uv, vec4 tint), see docs/shading.md", starter_glsl,
+                             max_glsl_bytes);
     glsl.min_length = 1;
     return {Param::choice_or_object("shading",
                                     "what the fragment shader does: read textures and bend positions, or your own GLSL",

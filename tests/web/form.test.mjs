@@ -186,9 +186,22 @@ page_test("the user's own shading is written in the form", { expected_statuses: 
   const source = page.locator(`${field("/scene/shading/glsl")} textarea`);
   assert.equal(await source.count(), 0);
   await choice.selectOption({ label: "own GLSL" });
+  assert.match(await source.inputValue(), /return vec4\(/);
+  const valid = page.getByText("The spec is valid.");
+  await valid.waitFor();
   await source.fill("return tint;\n#define x");
   const error = page.locator(`${field("/scene/shading/glsl")} > .error-text`);
   await error.filter({ hasText: "line 2 has a #" }).waitFor();
+  const numbers = page.locator(`${field("/scene/shading/glsl")} .line-numbers`);
+  const marked = () => numbers.locator(".wrong").allTextContents();
+  assert.deepEqual(await marked(), ["2"]);
+  // What only the compiler finds.
+  await source.fill("float a = 1.0;\nvec4 b = a * tints;\n\nreturn b + c;");
+  await error.filter({ hasText: "line 4: " }).waitFor();
+  assert.deepEqual(await marked(), ["2", "4"]);
+  assert.match(await numbers.locator(".wrong").first().getAttribute("title"), /^line 2: .*tints/);
+  assert.equal(await numbers.locator("span").count(), 4);
+  await assert_accessible(page, "a program with errors");
   assert.equal(await shading.locator(":scope > .error-text").isHidden(), true);
   const body = "return tint * vec4(uv, 1.0, 1.0);";
   await source.fill(body);
