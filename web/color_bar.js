@@ -1,5 +1,5 @@
 // The scale of a map of colors: a bar with ticks, and a mark for the value of each source at the marked pixel.
-import { el, set_children } from "./dom.js";
+import { el } from "./dom.js";
 import { MAGMA } from "./magma.js";
 import { difference_level } from "./paint.js";
 
@@ -71,9 +71,4 @@ export function color_bar(scale, marks) {
       scale.ticks.map((tick) => placed(el("span", {}, String(tick).replace("-", "−")), tick)),
     ),
   );
-}
-
-/** Replaces the bar in `place`. */
-export function show_bar(place, scale, marks) {
-  set_children(place, scale ? color_bar(scale, marks) : null);
 }

@@ -1,6 +1,6 @@
 // One picture in a pane: the file itself where that shows what is asked for, otherwise a canvas painted from its numbers.
 import { el } from "./dom.js";
-import { paint_color, paint_difference } from "./paint.js";
+import { over_background, paint_color, paint_difference } from "./paint.js";
 
 export class Layer {
   #source;
@@ -8,20 +8,22 @@ export class Layer {
   #state;
   #kinds;
   #size;
+  #background;
   #asked = 0;
   node;
   frame = el("div", { class: "picture" });
 
   /**
    * `source` and `base`, the one with which it is compared: {key, label, reference, data}. `kinds`: those of the viewer.
-   * `size`: [width, height] in pixels.
+   * `size`: [width, height] in pixels. `background`: the one with which the pictures were drawn, [red, green, blue].
    */
-  constructor({ source, base, state, kinds, size }) {
+  constructor({ source, base, state, kinds, size, background }) {
     this.#source = source;
     this.#base = base;
     this.#state = state;
     this.#kinds = kinds;
     this.#size = size;
+    this.#background = background;
     this.update();
   }
 
@@ -42,6 +44,9 @@ export class Layer {
   update() {
     const { kind } = this;
     const paint = this.#paint_of(kind);
+    const is_lacking = kind === "color" && this.#state.needs_opacity && !this.#source.data.has("opacity");
+    if (is_lacking) this.frame.dataset.lacks = "opacity not known";
+    else delete this.frame.dataset.lacks;
     const [width, height] = this.#size;
     ++this.#asked;
     if (!paint) {
@@ -87,7 +92,12 @@ export class Layer {
     }
     if (kind !== "color" || !this.#state.has_tone) return null;
     const floats = data.has("linear") ? "linear" : "color";
-    return async () => paint_color(await data.load(floats), values);
+    if (!this.#state.needs_opacity || !data.has("opacity"))
+      return async () => paint_color(await data.load(floats), values);
+    if (values.channel === "a") return async () => paint_color(await data.load("opacity"), values);
+    const pair = [data.load(floats), data.load("opacity")];
+    return async () =>
+      paint_color(over_background(...(await Promise.all(pair)), this.#background, values.over), values);
   }
 }
 

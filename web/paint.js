@@ -2,12 +2,37 @@
 // red, green, blue and alpha in 8 bits, top row first.
 
 const OPAQUE = 255;
+const SQUARE_PX = 8; // of the checker, as in the metric "Over other backgrounds"
 const to_level = (value) => Math.max(0, Math.min(OPAQUE, Math.round(value * OPAQUE)));
 
 /** What a level 0..255 becomes under exposure and gamma. */
-export function tone_of({ exposure, gamma }) {
+function tone_of({ exposure, gamma }) {
   const factor = 2 ** exposure;
   return (value) => (value <= 0 ? 0 : (value * factor) ** (1 / gamma));
+}
+
+/** What is behind the pictures: a function of the pixel and the channel. */
+function backdrop(over) {
+  if (over !== "checker") return () => Number(over === "white");
+  return (x, y) => 1 - ((Math.floor(x / SQUARE_PX) + Math.floor(y / SQUARE_PX)) % 2);
+}
+
+/**
+ * The picture over another background: a pixel is C + T B, where `opacity` has the levels of 1 - T, and `background` is the
+ * B with which `raster` was drawn. Floats.
+ */
+export function over_background(raster, opacity, background, over) {
+  const { data, channels, width, height } = raster;
+  const unit = data instanceof Float32Array ? 1 : 1 / OPAQUE;
+  const behind = backdrop(over);
+  const moved = new Float32Array(width * height * 3);
+  for (let i = 0; i < width * height; ++i)
+    for (let c = 0; c < 3; ++c) {
+      const shows = 1 - opacity.data[i * 4 + c] / OPAQUE;
+      const step = behind(i % width, Math.floor(i / width)) - background[c];
+      moved[i * 3 + c] = data[i * channels + c] * unit + step * shows;
+    }
+  return { width, height, channels: 3, data: moved };
 }
 
 /** `raster` has levels (Uint8) or floats. */
@@ -17,19 +42,13 @@ export function paint_color(raster, { exposure, gamma, channel }) {
   const painted = new Uint8ClampedArray(count * 4);
   const unit = data instanceof Float32Array ? 1 : 1 / OPAQUE;
   const tone = tone_of({ exposure, gamma });
-  const single = { r: 0, g: 1, b: 2, a: 3 }[channel];
+  const single = { r: 0, g: 1, b: 2 }[channel];
   // Levels have few values, so each is computed once.
   const table = unit === 1 ? null : Uint8Array.from({ length: 256 }, (_, level) => to_level(tone(level * unit)));
   const shown = (value) => (table ? table[value] : to_level(tone(value)));
   for (let i = 0; i < count; ++i) {
-    const from = i * channels;
-    const to = i * 4;
-    for (let c = 0; c < 3; ++c) {
-      const source = single ?? c;
-      painted[to + c] =
-        source === 3 ? (channels > 3 ? to_level(data[from + 3] * unit) : OPAQUE) : shown(data[from + source]);
-    }
-    painted[to + 3] = OPAQUE;
+    for (let c = 0; c < 3; ++c) painted[i * 4 + c] = shown(data[i * channels + (single ?? c)]);
+    painted[i * 4 + 3] = OPAQUE;
   }
   return painted;
 }

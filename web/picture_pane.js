@@ -19,6 +19,7 @@ export class PicturePane {
   #drag = null;
   #touches = new Map(); // positions of the fingers by their ids
   #split = 0.5;
+  #place = null; // of the pictures, when they were last shown
   #on_pick;
   #on_mark;
   #marked = null; // where a rectangle was begun
@@ -90,7 +91,8 @@ export class PicturePane {
     const { width, height } = this.size;
     if (width === 0 || height === 0) return;
     const corner = this.#view.getBoundingClientRect();
-    const { scale, left, top } = this.#viewport.place(width, height, corner.left, corner.top);
+    const place = this.#viewport.place(width, height, corner.left, corner.top);
+    const { scale, left, top } = (this.#place = place);
     const [columns, rows] = this.#viewport.size;
     const pixelated = scale * (window.devicePixelRatio || 1) >= 1;
     for (const { node } of this.#layers) {
@@ -99,9 +101,14 @@ export class PicturePane {
       node.style.height = `${rows * scale}px`;
       node.classList.toggle("pixelated", pixelated);
     }
-    this.#place_mark(scale, left, top);
+    this.show_mark();
     this.#place_area(scale, left, top);
     this.#place_divider();
+  }
+
+  /** Moves the pixel mark, while the pictures stay. */
+  show_mark() {
+    if (this.#place) this.#place_mark(this.#place.scale, this.#place.left, this.#place.top);
   }
 
   #place_area(scale, left, top) {

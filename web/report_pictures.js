@@ -11,6 +11,8 @@ const COUNT_NOTES = {
   saturation:
     "The fragment, counted from the front, after which less than the threshold is left; black where that never happens",
 };
+/** Not shown by itself: other backgrounds and the channel Alpha are made from it. */
+const HELPERS = ["opacity"];
 /** What is the same for every method. */
 const ONCE = ["overdraw"];
 
@@ -22,7 +24,7 @@ export function kinds_of(run, metrics) {
   const keys = new Set(
     run.results.flatMap((result) =>
       Object.entries(result.images ?? {})
-        .filter(([, image]) => is_shown(image))
+        .filter(([key, image]) => is_shown(image) && !HELPERS.includes(key))
         .map(([key]) => key),
     ),
   );

@@ -60,10 +60,11 @@ function run_part(report, run, options) {
   const { methods, metrics, columns, picture_url, load_pixel, on_change } = options;
   const index = report.runs.indexOf(run);
   const pixel = load_pixel ? new PixelView((x, y, signal) => load_pixel({ x, y, run: index }, signal)) : null;
-  const { width, height } = run_size(report, run);
+  const { width, height, background } = run_image(report, run);
   const viewer = new ImageViewer({
     width_px: width,
     height_px: height,
+    background,
     sources: sources_of(run, picture_url),
     kinds: kinds_of(run, metrics),
     on_pick: pixel ? (x, y) => pixel.show(x, y) : null,
@@ -95,13 +96,11 @@ function run_part(report, run, options) {
   return { viewer, nodes };
 }
 
-/** A sweep may change the size of the image. */
-function run_size(report, run) {
+/** A sweep may change the image. */
+function run_image(report, run) {
   const image = report.spec?.image ?? {};
-  return {
-    width: run.point?.["/image/width"] ?? image.width ?? 512,
-    height: run.point?.["/image/height"] ?? image.height ?? 512,
-  };
+  const of_run = (name, usual) => run.point?.[`/image/${name}`] ?? image[name] ?? usual;
+  return { width: of_run("width", 512), height: of_run("height", 512), background: of_run("background", [0, 0, 0]) };
 }
 
 /**

@@ -14,7 +14,7 @@ import { column_decimals, DASH, fixed, integer, is_number, short_value } from ".
 import { axis_end, timing_samples, timing_strip } from "./timing_strip.js";
 
 /** The label of a method and its parameters. */
-export function method_cell(result, context) {
+function method_cell(result, context) {
   const info = context.methods.find((method) => method.id === result.method);
   const parameters = Object.entries(result.parameters ?? {});
   const is_default = ([name, value]) =>

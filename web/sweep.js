@@ -4,6 +4,11 @@ import { is_number, short_value } from "./format.js";
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
+function is_same_point(a, b) {
+  const fields = Object.keys(a);
+  return fields.length === Object.keys(b).length && fields.every((field) => same(a[field], b[field]));
+}
+
 function parts_of(pointer) {
   return pointer
     .split("/")
@@ -46,8 +51,8 @@ export function point_text(point, spec = {}) {
 }
 
 /**
- * The axes of `spec.sweep`: {name, points, stops}. `points` are objects of values by pointer; each stop is
- * {value, text}; `value` is the value of the field, or undefined if points set several fields.
+ * The axes of `spec.sweep`: {name, field, points, stops}. `points` are objects of values by pointer; each stop is
+ * {value, text}; `value` is the value of the field, `field` its pointer; both are undefined if points set several.
  */
 export function axes_of(spec) {
   const sweep = Array.isArray(spec?.sweep) ? spec.sweep : [];
@@ -65,23 +70,17 @@ export function axes_of(spec) {
               .map((value) => stop_text(value, index))
               .join(", "),
           };
-    return { name: names.join(", "), points, stops: points.map(stop) };
+    return { name: names.join(", "), field: single ? fields[0] : undefined, points, stops: points.map(stop) };
   });
 }
 
 /**
- * How a value grows along an axis: the exponent of the power law through the points, by least squares of the logarithms.
- * `points`: [[x, y]]; null for fewer than three, or if one is not above 0.
+ * How the times of the methods grow along an axis of one field, where the run is on the others: the report's entries for
+ * that field and the rest of the run's point.
  */
-export function growth_exponent(points) {
-  const is_able = points.length >= 3 && points.flat().every((value) => is_number(value) && value > 0);
-  if (!is_able) return null;
-  const logs = points.map((point) => point.map(Math.log));
-  const mean = (index) => logs.reduce((sum, one) => sum + one[index], 0) / logs.length;
-  const [mean_x, mean_y] = [mean(0), mean(1)];
-  const spread = logs.reduce((sum, [x]) => sum + (x - mean_x) ** 2, 0);
-  if (spread === 0) return null;
-  return logs.reduce((sum, [x, y]) => sum + (x - mean_x) * (y - mean_y), 0) / spread;
+export function growth_along(report, axis, run) {
+  const { [axis.field]: _, ...rest } = run.point;
+  return (report.growth ?? []).filter(({ pointer, at }) => pointer === axis.field && is_same_point(at, rest));
 }
 
 /** For each axis the index of the stop of a run's point, −1 if there is none. */

@@ -3,7 +3,7 @@ import { legend, line_chart } from "./chart.js";
 import { columns_of, difference_columns, missing_reason, value_at } from "./columns.js";
 import { el, select, set_children } from "./dom.js";
 import { column_decimals, DASH, fixed, integer, is_number } from "./format.js";
-import { axes_of, growth_exponent, point_text, runs_along, series_along, stops_of } from "./sweep.js";
+import { axes_of, growth_along, point_text, runs_along, series_along, stops_of } from "./sweep.js";
 import { SweepGrid } from "./sweep_grid.js";
 
 const FIRST_METRIC = "metrics.flip.mean";
@@ -148,14 +148,12 @@ export class SweepView {
   }
 
   /** How the times grow along the axis, where its values are numbers. */
-  #show_growth(axis, along) {
-    const exponents = series_along(along, "timing.median").map(({ label, points }) => {
-      const exponent = growth_exponent(points.map(({ stop, value }) => [axis.stops[stop].value, value]));
-      return exponent === null ? null : `${label} ${exponent.toFixed(2)}`;
-    });
-    const known = exponents.filter(Boolean);
+  #show_growth(axis, run) {
+    const known = run ? growth_along(this.#report, axis, run) : [];
+    const text = ({ method, exponent, ci95 }) =>
+      `${method} ${fixed(exponent, 2)} [${ci95.map((end) => fixed(end, 2)).join(", ")}]`;
     this.#growth.hidden = known.length === 0;
-    this.#growth.textContent = `Time grows with the power of ${axis.name}: ${known.join(", ")}.`;
+    this.#growth.textContent = `Time grows with the power of ${axis.name}: ${known.map(text).join(", ")}.`;
   }
 
   /** Shows a run of the report. */
@@ -239,7 +237,7 @@ export class SweepView {
     const open = this.#values.querySelector("details")?.open;
     set_children(this.#values, values_table(axis, along, [...timed, ...this.#metrics]));
     if (open) this.#values.querySelector("details").open = true;
-    this.#show_growth(axis, along);
+    this.#show_growth(axis, run);
     if (run) this.#grid?.show(run);
   }
 }

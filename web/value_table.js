@@ -24,6 +24,15 @@ function floats_text(floats) {
   return floats ? Array.from(floats, (value) => fixed(value, FLOAT_DECIMALS)).join(" ") : DASH;
 }
 
+/** "0.502", or each channel where they differ. */
+function opacity_text(source, x, y) {
+  if (!source.data.has("opacity")) return DASH;
+  const levels = source.data.levels("opacity", x, y);
+  if (!levels) return DASH;
+  const channels = Array.from(levels.subarray(0, 3), (level) => fixed(level / 255, MAP_DECIMALS));
+  return new Set(channels).size === 1 ? channels[0] : channels.join(" ");
+}
+
 /** `base` minus `source` in levels, [red, green, blue]; null if one of them is not known. */
 export function difference_at(base, source, x, y) {
   const [a, b] = [base, source].map(({ data }) => data.levels("color", x, y));
@@ -53,7 +62,8 @@ export class ValueTable {
     const maps = kinds.filter(({ key }) => key !== "color" && key !== "difference");
     this.#maps = maps.filter(({ once }) => !once);
     this.#once = maps.filter(({ once }) => once);
-    const heads = ["Color, 0 to 255", "Color as floats", "Difference, levels", ...this.#maps.map(({ label }) => label)];
+    const heads = ["Color, 0 to 255", "Color as floats", "Opacity", "Difference, levels"];
+    heads.push(...this.#maps.map(({ label }) => label));
     this.element = el(
       "div",
       { class: "values table-box", tabindex: "0", role: "region", "aria-label": "Values of the pixel" },
@@ -91,6 +101,7 @@ export class ValueTable {
           el("th", { scope: "row" }, source.label),
           el("td", { "data-kind": "color" }, swatch(levels), levels_text(levels) || DASH),
           el("td", { "data-kind": "float" }, pixel ? floats_text(source.data.floats(...pixel)) : DASH),
+          el("td", { "data-kind": "opacity" }, pixel ? opacity_text(source, ...pixel) : DASH),
           el("td", { "data-kind": "difference" }, source === base ? DASH : value(source, "difference")),
           this.#maps.map(({ key }) => el("td", { "data-kind": key }, value(source, key))),
         );

@@ -12,14 +12,35 @@ export const CHANNELS = [
   ["b", "Blue"],
   ["a", "Alpha"],
 ];
+const OWN_BACKGROUND = "own";
+export const BACKGROUNDS = [
+  [OWN_BACKGROUND, "its background"],
+  ["black", "black"],
+  ["white", "white"],
+  ["checker", "a checker"],
+];
 export const GAINS = [1, 2, 4, 8, 16, 32, 64];
 
 const NUMBERS = { exposure: [-10, 10], gamma: [0.1, 4], gain: [0, 64] };
-const NAMES = ["mode", "layout", "against", "shown", "kept", "exposure", "gamma", "channel", "gain", "absolute"];
+const NAMES = [
+  "mode",
+  "layout",
+  "against",
+  "shown",
+  "kept",
+  "exposure",
+  "gamma",
+  "channel",
+  "over",
+  "gain",
+  "absolute",
+];
+const TONE = ["exposure", "gamma", "channel", "over"];
 
 /**
  * `mode`: key of the kind of picture. `against`: key of the source with which the others are compared; `shown`: key of the one
- * beside it. `kept`: keys of the sources that are shown, null for all. `exposure` in stops, `gamma` above 0. `gain`: factor
+ * beside it. `kept`: keys of the sources that are shown, null for all. `exposure` in stops, `gamma` above 0. `over`: what is behind
+ * the pictures, see BACKGROUNDS. `gain`: factor
  * of differences, 0 for the square root that shows both small and large ones. `absolute`: differences without their sign.
  *
  * Event "change", whose `changed` are the names of the values that differ.
@@ -39,6 +60,7 @@ export class ViewState extends EventTarget {
       exposure: 0,
       gamma: 1,
       channel: "rgb",
+      over: OWN_BACKGROUND,
       gain: 0,
       absolute: false,
     };
@@ -60,12 +82,16 @@ export class ViewState extends EventTarget {
   }
 
   get has_tone() {
-    return ["exposure", "gamma", "channel"].some((name) => this.#values[name] !== this.#defaults[name]);
+    return TONE.some((name) => this.#values[name] !== this.#defaults[name]);
+  }
+
+  /** Whether what is asked for is made from the pictures' opacity. */
+  get needs_opacity() {
+    return this.#values.channel === "a" || this.#values.over !== OWN_BACKGROUND;
   }
 
   reset_tone() {
-    const { exposure, gamma, channel } = this.#defaults;
-    this.set({ exposure, gamma, channel });
+    this.set(Object.fromEntries(TONE.map((name) => [name, this.#defaults[name]])));
   }
 
   /** The values that differ from their defaults, as texts by name. */
@@ -87,6 +113,7 @@ export class ViewState extends EventTarget {
       against: allowed.sources,
       shown: allowed.sources,
       channel: CHANNELS.map(([key]) => key),
+      over: BACKGROUNDS.map(([key]) => key),
     };
     for (const [name, keys] of Object.entries(known)) if (keys.includes(query[name])) values[name] = query[name];
     for (const [name, [least, greatest]] of Object.entries(NUMBERS)) {

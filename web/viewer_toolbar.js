@@ -20,10 +20,12 @@ export class ViewerToolbar {
   #fill;
   #tools = el("div", { class: "viewer-tools", role: "group", "aria-label": "Tools for this kind of picture" });
   #tools_mode = null;
+  #has_opacity;
 
   /** `actions`: {fill, keys, step(±1), fit, full_size, worst(±1), resize(size)}. */
   constructor(sources, kinds, state, actions) {
     this.#state = state;
+    this.#has_opacity = sources.some(({ data }) => data.has("opacity"));
     const with_picture = sources.filter(({ data }) => data.has("color"));
     const choices = with_picture.map(({ key, label }) => [key, label]);
     const choose = (name, label) =>
@@ -141,7 +143,9 @@ export class ViewerToolbar {
     this.#sizes.hidden = layout !== "grid";
     this.#worst.hidden = layout === "grid";
     for (const box of this.#keep) box.checked = !kept || kept.includes(box.dataset.key);
-    if (this.#tools_mode !== mode) show_tools(this.#tools, this.#state);
+    // A tool that is being used would lose the focus.
+    if (!this.#tools.contains(document.activeElement) || this.#tools_mode !== mode)
+      show_tools(this.#tools, this.#state, this.#has_opacity);
     this.#tools_mode = mode;
   }
 

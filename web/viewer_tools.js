@@ -1,6 +1,6 @@
 // The tools of the viewer for the kind of picture that is shown: exposure and channels of colors, gain of differences.
-import { el, segmented, select } from "./dom.js";
-import { CHANNELS, GAINS } from "./view_state.js";
+import { el, segmented, select, set_children } from "./dom.js";
+import { BACKGROUNDS, CHANNELS, GAINS } from "./view_state.js";
 
 function range(label, state, name, limits, text) {
   const value = el("output", {}, text(state.get(name)));
@@ -16,12 +16,21 @@ function range(label, state, name, limits, text) {
   return el("label", { class: "tool-range" }, label, input, value);
 }
 
-function tone_tools(state, redraw) {
+function tone_tools(state, has_opacity, redraw) {
   const stops = (value) => `${value > 0 ? "+" : ""}${value.toFixed(1)}`.replace("-", "−");
+  const channels = CHANNELS.filter(([key]) => key !== "a" || has_opacity);
   return [
     range("Exposure", state, "exposure", { min: -6, max: 6, step: 0.5 }, stops),
     range("Gamma", state, "gamma", { min: 0.4, max: 3, step: 0.1 }, (value) => value.toFixed(1)),
-    segmented("Channel", CHANNELS, state.get("channel"), (channel) => state.set({ channel })),
+    segmented("Channel", channels, state.get("channel"), (channel) => state.set({ channel })),
+    has_opacity
+      ? el(
+          "label",
+          {},
+          "Over ",
+          select({ onchange: (event) => state.set({ over: event.target.value }) }, BACKGROUNDS, state.get("over")),
+        )
+      : null,
     el(
       "button",
       {
@@ -62,8 +71,11 @@ function difference_tools(state) {
   ];
 }
 
-/** Fills `place` with the tools for the state's mode. */
-export function show_tools(place, state) {
+/** Fills `place` with the tools for the state's mode; `has_opacity`: whether a picture can be put over other backgrounds. */
+export function show_tools(place, state, has_opacity) {
   const tools = { color: tone_tools, difference: difference_tools }[state.get("mode")];
-  place.replaceChildren(...(tools?.(state, () => show_tools(place, state)) ?? []));
+  set_children(
+    place,
+    tools?.(state, has_opacity, () => show_tools(place, state, has_opacity)),
+  );
 }

@@ -35,6 +35,14 @@ export class Viewport extends EventTarget {
     this.dispatchEvent(new Event("area"));
   }
 
+  /** Marks the rectangle between two pixels, as far as it is in the picture. */
+  mark_area([x0, y0], [x1, y1]) {
+    const clamp = (value, most) => Math.min(most, Math.max(0, value));
+    const [left, right] = [Math.min(x0, x1), Math.max(x0, x1) + 1].map((x) => clamp(x, this.#width));
+    const [top, bottom] = [Math.min(y0, y1), Math.max(y0, y1) + 1].map((y) => clamp(y, this.#height));
+    this.area = left < right && top < bottom ? [left, top, right, bottom] : null;
+  }
+
   /** Zoom, position and pixel as texts for an address; {} while the whole pictures are shown and no pixel is marked. */
   to_query() {
     const one = (value) => String(Math.round(value * 100) / 100);

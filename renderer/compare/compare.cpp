@@ -7,6 +7,7 @@
 #include "renderer/compare/change.h"
 #include "renderer/compare/contenders.h"
 #include "renderer/compare/looks.h"
+#include "renderer/compare/opacity.h"
 #include "renderer/compare/progress.h"
 #include "renderer/compare/workbench.h"
 #include "renderer/counting/loop_check.h"
@@ -83,6 +84,7 @@ void measure(const Looks& looks, Target& target, Contenders& contenders, Workben
                                                    word_of(run.reference_status), run.reference_reason);
         if (!result.no_metrics_reason.empty()) return;
         const Backdrops over = bench.over_backdrops(method, target, result.image);
+        result.opacity = opacity_of(over);
         result.metrics =
             compute_metrics(run.reference_image, result.image, &look.reference_over, &over, &run.reference_as_shown);
         if (!look.changes.empty()) result.own_reference = run.reference_as_shown;
@@ -91,7 +93,7 @@ void measure(const Looks& looks, Target& target, Contenders& contenders, Workben
 
 /// One point of the sweep: each stage, in order, fills in its part of the run.
 Run compare_point(const Spec& spec, const SweepPoint& point, gl::Context& context, AssetReader& assets,
-                  const ProgressFunction& progress, const UndecidedFunction& is_undecided) {
+                  const ProgressFunction& progress, const UndecidedFunction& is_undecided, const RunFunction& early) {
     Run run;
     run.point = point;
     run.image = spec.image;
@@ -111,6 +113,7 @@ Run compare_point(const Spec& spec, const SweepPoint& point, gl::Context& contex
 
     Contenders contenders(spec, looks, target, bench, run);
     contenders.make();
+    if (early) early(run);
     compare_with_counterparts(run);
     contenders.prepare_sorting(geometry);
     contenders.time(is_undecided);
@@ -128,7 +131,7 @@ Device describe_device(const gl::Context& context) {
 }
 
 void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress,
-             const RunFunction& take, const UndecidedFunction& is_undecided) {
+             const RunFunction& take, const UndecidedFunction& is_undecided, const RunFunction& early) {
     const double share = 1.0 / static_cast<double>(spec.points.size());
     double begin = 0;
     for (const SweepPoint& point : spec.points) {
@@ -136,7 +139,7 @@ void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const 
         const ProgressFunction point_progress = [&](double fraction, const std::string& stage) {
             progress(begin + fraction * share, where.empty() ? stage : where + ": " + stage);
         };
-        take(compare_point(spec_at(spec, point), point, context, assets, point_progress, is_undecided));
+        take(compare_point(spec_at(spec, point), point, context, assets, point_progress, is_undecided, early));
         begin += share;
     }
 }

@@ -58,6 +58,7 @@ struct MethodResult {
     std::optional<PictureChange> change;  ///< only if the method has its own look
     std::string no_change_reason;
     Image own_reference;            ///< of a method with its own look: the reference in that look, as shown
+    Image8 opacity;                 ///< see opacity_of(); empty if it has no metrics
     std::int64_t memory_bytes = 0;  ///< GL objects that the method made for its own use
     FragmentCounts fragments;
     nlohmann::json findings = nlohmann::json::object();  ///< see Method::findings
@@ -73,6 +74,7 @@ struct Run {
     std::string reference_reason;                                      ///< why it is not ok
     Image reference_image;                                             ///< in 32-bit floats
     Image reference_as_shown;  ///< the same, rounded by the device to the format that the methods blend into
+    Image8 reference_opacity;  ///< see opacity_of()
     /// The error of that rounding alone: `reference_as_shown` compared with `reference_image`. Absent if the reference
     /// has no metrics.
     std::optional<Metrics> format_cost;
@@ -101,7 +103,8 @@ Device describe_device(const gl::Context& context);
 
 /// Reports the progress of a comparison. Called from the rendering thread. An exception from it ends the comparison.
 using ProgressFunction = std::function<void(double fraction, const std::string& stage)>;
-/// Takes each finished run. Its pictures are freed afterwards: those of a whole sweep would not fit in memory.
+/// Takes a run: each finished one, whose pictures are freed afterwards, as those of a whole sweep would not fit in
+/// memory.
 using RunFunction = std::function<void(const Run& run)>;
 /// Whether a check on a time of this run, whose times are those of the rounds so far, is undecided.
 using UndecidedFunction = std::function<bool(const Run& run)>;
@@ -114,9 +117,9 @@ using UndecidedFunction = std::function<bool(const Run& run)>;
 /// as a whole: the scene cannot be made, or the device is lost (ContextLost). Throws SpecError for a file of the spec
 /// that `assets` cannot read, and if the user's own shading does not compile.
 ///
-/// While `is_undecided` says so, the rounds are doubled, as long as the spec's time allows; without this function the
-/// spec's rounds are all.
+/// `early` gets each run when its pictures are drawn and nothing is timed yet. While `is_undecided` says so, the rounds
+/// are doubled, as long as the spec's time allows; without this function the spec's rounds are all.
 void compare(const Spec& spec, gl::Context& context, AssetReader& assets, const ProgressFunction& progress,
-             const RunFunction& take, const UndecidedFunction& is_undecided = {});
+             const RunFunction& take, const UndecidedFunction& is_undecided = {}, const RunFunction& early = {});
 
 }  // namespace sheer

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/compare/opacity.h"
 #include "renderer/compare/progress.h"
 #include "renderer/core/number_text.h"
 #include "renderer/passes/depth_peeler.h"
@@ -55,6 +56,7 @@ void forget_reference(const Trouble& trouble, Run& run) {
     run.reference_status = trouble.status;
     run.reference_reason = run.no_residual_reason = trouble.reason;
     run.reference_image = run.reference_as_shown = {};
+    run.reference_opacity = {};
     run.format_cost.reset();
     run.reference_findings = nlohmann::json::object();
 }
@@ -74,6 +76,7 @@ Backdrops render_reference(const Spec& spec, const Scene& scene, Workbench& benc
         bench.render(*reference, false);
         run.reference_image = target.read();
         over = bench.over_backdrops(*reference, target, run.reference_image);
+        run.reference_opacity = opacity_of(over);
         round_reference(spec, over, bench, run);
         run.reference_findings = bench.findings(*reference);
     });

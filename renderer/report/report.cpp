@@ -14,6 +14,7 @@
 #include "renderer/core/sha256.h"
 #include "renderer/image/magma.h"
 #include "renderer/report/frontier.h"
+#include "renderer/report/growth.h"
 #include "renderer/report/provenance.h"
 #include "renderer/report/qualification.h"
 #include "renderer/report/suite.h"
@@ -122,6 +123,11 @@ class RunWriter {
         return all;
     }
 
+    void add_opacity(const Image8& opacity, const std::string& label, Pictures& images) const {
+        if (m_pictures && !opacity.rgb.empty())
+            images["opacity"] = m_pictures->take(opacity, picture_name(label, "opacity.png"));
+    }
+
     report::Reference reference() const {
         report::Reference reference;
         reference.method = m_run.reference.id;
@@ -145,6 +151,7 @@ class RunWriter {
         const Image& shown = m_run.format_cost ? m_run.reference_as_shown : m_run.reference_image;
         Pictures all = pictures(shown, label, false);
         if (m_pictures) all["linear"] = m_pictures->take(m_run.reference_image, picture_name(label, "linear.exr"));
+        add_opacity(m_run.reference_opacity, label, all);
         return all;
     }
 
@@ -159,6 +166,7 @@ class RunWriter {
         result.notes = of_method.notes;
         if (result.status != ResultStatus::ok) return result;
         result.images = pictures(of_method.image, name, m_run.image.format != PixelFormat::rgba8);
+        add_opacity(of_method.opacity, name, result.images);
         add_count_images(of_method, name, result.images);
         result.timing = m_timings.timing(of_method);
         result.fragments = fragments(of_method);
@@ -402,6 +410,7 @@ UndecidedFunction ReportMaker::undecided() const {
 
 Report ReportMaker::finish() {
     if (const Suite* suite = find_suite(m_spec.suite)) m_report.suite = suite_report(*suite, m_report.runs);
+    m_report.growth = growth_of(m_report.runs);
     m_report.checks = check_all(m_spec.checks, m_report.runs);
     judge(m_report);
     collect(m_report);

@@ -51,11 +51,30 @@ std::string sentence(const Report& report, const std::string& label) {
     return fmt::format("{} is {}.\n", label, both.empty() ? "not resolved to be faster or slower at any point" : both);
 }
 
+/// "At size 64, time grows as count^p with p = 0.98 [0.91, 1.05] for b2f, ..." for each field and the rest of the
+/// point.
+std::string growth_text(const Report& report) {
+    std::string text;
+    const report::Growth* before = nullptr;
+    for (const report::Growth& growth : report.growth) {
+        const bool continues = before && before->pointer == growth.pointer && before->at == growth.at;
+        const std::string field = describe_point({{growth.pointer, 0}});
+        const std::string at = describe_point(growth.at);
+        if (!continues)
+            text += fmt::format("{}{}ime grows as {}^p, p = ", before ? ".\n" : "",
+                                at.empty() ? "T" : "At " + at + ", t", field.substr(0, field.rfind(' ')));
+        text += fmt::format("{}{:.2f} [{:.2f}, {:.2f}] for {}", continues ? ", " : "", growth.exponent, growth.ci95[0],
+                            growth.ci95[1], growth.method);
+        before = &growth;
+    }
+    return text.empty() ? "" : text + ".\n";
+}
+
 }  // namespace
 
 std::string sweep_table(const Report& report) {
     const std::vector<std::string> labels = contenders(report);
-    if (report.runs.size() < 2 || labels.empty()) return "";
+    if (report.runs.size() < 2 || labels.empty()) return growth_text(report);
     std::vector<TableRow> rows = {{"speedup at"}};
     rows[0].insert(rows[0].end(), labels.begin(), labels.end());
     for (const report::Run& run : report.runs) {
@@ -64,7 +83,7 @@ std::string sweep_table(const Report& report) {
     }
     std::string text = fmt::format("\n{}\nBeside {}:\n", aligned(rows), report.baseline());
     for (const std::string& label : labels) text += sentence(report, label);
-    return text;
+    return text + growth_text(report);
 }
 
 }  // namespace sheer

@@ -68,7 +68,8 @@ const Description<report::Reference>& description_of() {
             .member(&report::Reference::status, "status", "without a reference nothing has metrics")
             .text_or_null(&report::Reference::reason, "reason", "why the status is not ok")
             .member(&report::Reference::images, "images",
-                    "color: rounded like the methods' pictures; linear: in 32-bit floats")
+                    "color: rounded like the methods' pictures; linear: in 32-bit floats; opacity: how much of the "
+                    "background each channel hides")
             .json(&report::Reference::findings, "findings", "values that only this method reports", findings_schema)
             .member(&report::Reference::residual, "residual", "")
             .maybe(&report::Reference::residual_reason, "residual_reason", "why residual.depth_peeling is null")
@@ -154,6 +155,21 @@ const Description<report::Run>& description_of() {
             .member(&report::Run::files, "files", "from which the scene was made")
             .member(&report::Run::results, "results", "in the order of the spec's methods")
             .member(&report::Run::frontier, "frontier", "null if fewer than two methods have a time and an error");
+    return description;
+}
+
+template <>
+const Description<report::Growth>& description_of() {
+    static const auto description =
+        Description<report::Growth>("Growth", "how the median time of a method grows along a field of the sweep")
+            .member(&report::Growth::pointer, "pointer", "of the field, which is a number above 0 at these points")
+            .json(&report::Growth::at, "at", "the values of the other fields of the sweep", point_schema)
+            .member(&report::Growth::method, "method", "label")
+            .member(&report::Growth::exponent, "exponent",
+                    "p of time = a x^p, by least squares of the logarithms: 1 if twice the value takes twice the time")
+            .member(&report::Growth::ci95, "ci95",
+                    "its 95 % interval by Student's t, from how far the points lie from the line")
+            .member(&report::Growth::points, "points", "number of points, at least 3");
     return description;
 }
 
@@ -372,6 +388,7 @@ const Description<report::Report>& description_of() {
             .member(&report::Report::qualification, "qualification",
                     "the device's last qualification before this report; null if there was none: `sheer qualify`")
             .member(&report::Report::runs, "runs", "one for each point of the sweep")
+            .member(&report::Report::growth, "growth", "for each field of the sweep and method with enough points")
             .maybe(&report::Report::suite, "suite", "absent if the spec names no suite")
             .maybe(&report::Report::against, "against", "absent if the spec names nothing to compare with")
             .member(&report::Report::checks, "checks",

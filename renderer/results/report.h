@@ -189,6 +189,15 @@ struct Run {
     const Result* find(const std::string& label) const;
 };
 
+struct Growth {
+    std::string pointer;
+    Point at = nlohmann::json::object();
+    std::string method;
+    double exponent = 0;
+    Interval ci95{0, 0};
+    std::size_t points = 0;
+};
+
 struct Check {
     std::string metric, method;
     Point at = nlohmann::json::object();
@@ -296,6 +305,7 @@ struct Report : Head {
     Provenance provenance;
     std::optional<Qualification> qualification;
     std::vector<Run> runs;
+    std::vector<Growth> growth;
     std::optional<Suite> suite;
     std::optional<Against> against;
     std::vector<Check> checks;

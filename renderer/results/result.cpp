@@ -230,7 +230,8 @@ const Description<report::Result>& description_of() {
             .member(&report::Result::status, "status", "")
             .text_or_null(&report::Result::reason, "reason", "why the status is not ok")
             .member(&report::Result::images, "images",
-                    "by their content: color, linear, overdraw, shaded, saturation, and the maps of the metrics")
+                    "by their content: color, linear, opacity (how much of the background each channel hides), "
+                    "overdraw, shaded, saturation, and the maps of the metrics")
             .member(&report::Result::timing, "timing", "null if the status is not ok")
             .member(&report::Result::speedup, "speedup", "over the baseline")
             .member(&report::Result::speedup_with_sort, "speedup_with_sort",

@@ -15,8 +15,8 @@ const load = (name) => import(pathToFileURL(join(folder, name)));
 
 const { advise, ANY, tally } = await load("advice.js");
 const { MAGMA, magma_level } = await load("magma.js");
-const { difference_level, greatest_differences, paint_color, worst_pixels } = await load("paint.js");
-const { growth_exponent, point_text } = await load("sweep.js");
+const { difference_level, greatest_differences, over_background, paint_color, worst_pixels } = await load("paint.js");
+const { axes_of, growth_along, point_text } = await load("sweep.js");
 
 const METHODS = [
   { id: "b2f", needs_sorting: true },
@@ -135,9 +135,22 @@ test("exposure doubles, gamma bends, channels are alone", () => {
   assert.deepEqual([...paint_color(floats, { ...neutral, exposure: 1 })], [128, 255, 255, 255]);
   assert.deepEqual([...paint_color(floats, { ...neutral, gamma: 2 })], [128, 180, 255, 255]);
   assert.deepEqual([...paint_color(floats, { ...neutral, channel: "g" })], [128, 128, 128, 255]);
-  assert.deepEqual([...paint_color(floats, { ...neutral, channel: "a" })], [128, 128, 128, 255]);
   const levels = { width: 1, height: 1, channels: 4, data: Uint8ClampedArray.of(10, 20, 30, 255) };
   assert.deepEqual([...paint_color(levels, neutral)], [10, 20, 30, 255]);
+});
+
+test("a picture is put over another background by its opacity", () => {
+  // A fifth of red, all of green and none of blue is hidden; the second pixel is the background itself.
+  const size = { width: 2, height: 1 };
+  const floats = { ...size, channels: 3, data: Float32Array.of(0.6, 0.9, 0.6, 0.2, 0.4, 0.6) };
+  const opacity = { ...size, channels: 4, data: Uint8ClampedArray.of(51, 255, 0, 255, 0, 0, 0, 255) };
+  const over = (name) => [...over_background(floats, opacity, [0.2, 0.4, 0.6], name).data].map((x) => x.toFixed(4));
+  assert.deepEqual(over("black"), ["0.4400", "0.9000", "0.0000", "0.0000", "0.0000", "0.0000"]);
+  assert.deepEqual(over("white"), ["1.2400", "0.9000", "1.0000", "1.0000", "1.0000", "1.0000"]);
+  const wide = { width: 9, height: 1, channels: 3, data: new Float32Array(27) };
+  const clear = { ...wide, channels: 4, data: new Uint8ClampedArray(36) };
+  const checker = over_background(wide, clear, [0, 0, 0], "checker").data;
+  assert.deepEqual([checker[0], checker[21], checker[24]], [1, 1, 0]);
 });
 
 test("the worst pixels come by size, one of each block", () => {
@@ -160,39 +173,23 @@ test("the worst pixels come by size, one of each block", () => {
   ]);
 });
 
-test("the exponent of a power law is found", () => {
-  const close = (a, b) => assert.ok(Math.abs(a - b) < 1e-12, `${a} for ${b}`);
-  close(
-    growth_exponent([
-      [1, 3],
-      [4, 6],
-      [16, 12],
-    ]),
-    0.5,
+test("the growth along an axis is that at the run's other values", () => {
+  const spec = {
+    sweep: [
+      { pointer: "/scene/count", values: [1, 2, 4] },
+      { pointer: "/image/width", values: [8, 16] },
+    ],
+  };
+  const entry = (width, exponent) => ({ pointer: "/scene/count", at: { "/image/width": width }, exponent });
+  const report = { growth: [entry(8, 1), entry(16, 2), { pointer: "/image/width", at: {}, exponent: 3 }] };
+  const [count, width] = axes_of(spec);
+  const run = { point: { "/image/width": 16, "/scene/count": 4 } };
+  assert.deepEqual(
+    growth_along(report, count, run).map(({ exponent }) => exponent),
+    [2],
   );
-  close(
-    growth_exponent([
-      [2, 8],
-      [4, 32],
-      [8, 128],
-    ]),
-    2,
-  );
-  assert.equal(
-    growth_exponent([
-      [1, 1],
-      [2, 2],
-    ]),
-    null,
-  );
-  assert.equal(
-    growth_exponent([
-      [0, 1],
-      [2, 2],
-      [3, 3],
-    ]),
-    null,
-  );
+  assert.deepEqual(growth_along(report, width, run), []);
+  assert.deepEqual(growth_along({}, count, run), []);
 });
 
 test("a swept program is named, not written out", () => {

@@ -218,6 +218,29 @@ page_test("exposure, gamma and channels change what is shown, not what is read",
   await page.getByRole("button", { name: "Reset" }).click();
   await shows(128);
   await assert_accessible(page, "a picture in front of the others");
+  // b2f draws a white layer of which half shows, "white" one that hides everything, "black" nothing.
+  assert.equal(await cell(page, 1, "opacity").textContent(), (128 / 255).toFixed(3));
+  const levels = async () => {
+    const shown = [];
+    for (const key of ["1", "2", "3"]) {
+      await page.keyboard.press(key);
+      await loaded(page);
+      shown.push(await screen_level(page, 0.5));
+    }
+    return shown;
+  };
+  const channel = page.getByRole("group", { name: "Channel" });
+  await channel.getByRole("button", { name: "Alpha" }).click();
+  assert.deepEqual(await levels(), [128, 255, 0]);
+  await channel.getByRole("button", { name: "RGB" }).click();
+  await page.getByLabel("Over").selectOption("white");
+  assert.deepEqual(await levels(), [255, 255, 255]);
+  await page.waitForURL(/over=white/);
+  await page.getByLabel("Over").selectOption("black");
+  assert.deepEqual(await levels(), [128, 255, 0]);
+  await page.reload();
+  await page.locator(".pane-view").waitFor();
+  assert.equal(await page.getByLabel("Over").inputValue(), "black", "the tools show what the address says");
 });
 
 page_test("keys fill the window, change layout and kind, and go to the worst pixels", {}, async (page) => {
