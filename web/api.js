@@ -118,6 +118,11 @@ export async function get_report(id, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}`, { signal })).body;
 }
 
+/** What is drawn already of a report that is being timed: {point, pictures: [{label, url}]}. */
+export async function get_early_pictures(id, signal) {
+  return (await call(`/reports/${encodeURIComponent(id)}/early`, { signal })).body;
+}
+
 /**
  * What changed from report `id` to report `against`: in one `run`, with its FLIP maps, or in all, without them (null).
  * `allow`: pointers to fields of the spec that may differ.

@@ -1,16 +1,18 @@
 // A report that is queued or running: its place in the queue, how far it is, and how long it will take.
-import { delete_report, follow, list_reports } from "./api.js";
+import { delete_report, follow, get_early_pictures, list_reports } from "./api.js";
 import { el, set_children } from "./dom.js";
 import { scene_text } from "./report_head.js";
+import { point_text } from "./sweep.js";
 
 const QUEUE_PAUSE_MS = 3000;
 const MOST_LISTED = 100;
+const EARLY_PAUSE_MS = 500;
 const LEAST_PROGRESS = 0.05; // before that the rest cannot be estimated from it
 
 const ORDINALS = { 1: "Next", 2: "2nd", 3: "3rd" };
 
 /** "about 40 s", "about 4 min" */
-export function about(seconds) {
+function about(seconds) {
   if (seconds < 90) return `about ${Math.max(1, Math.round(seconds))} s`;
   return `about ${Math.round(seconds / 60)} min`;
 }
@@ -43,6 +45,8 @@ class Waiting {
   #stage = el("p", { class: "stage-text", role: "status" });
   #left = el("p", { class: "muted time-left" });
   #connection = el("p", { class: "notice warning", role: "alert", hidden: true }, "Connection lost, trying again…");
+  #early = el("section", { class: "early", "aria-label": "Pictures so far", hidden: true });
+  #early_urls = "";
   #began_at = null; // when rendering was first seen, and how far it was
   #began_progress = 0;
   #status;
@@ -62,9 +66,11 @@ class Waiting {
       this.#left,
       this.#connection,
       el("div", { class: "actions" }, this.#cancel_button()),
+      this.#early,
     );
     this.update(report);
     this.#watch_queue();
+    this.#watch_pictures();
   }
 
   #cancel_button() {
@@ -104,6 +110,43 @@ class Waiting {
     const done = progress - this.#began_progress;
     const seconds = ((now - this.#began_at) / 1000) * ((1 - progress) / done);
     this.#left.textContent = done >= LEAST_PROGRESS ? `${about(seconds)} left` : "";
+  }
+
+  /** The pictures are there before the times; those of the next point of a sweep replace them. */
+  async #watch_pictures() {
+    for (;;) {
+      await new Promise((resolve) => setTimeout(resolve, EARLY_PAUSE_MS));
+      if (this.#signal.aborted || !this.element.isConnected) return;
+      if (this.#status !== "running") continue;
+      try {
+        this.#show_early(await get_early_pictures(this.#report.id, this.#signal));
+      } catch {
+        // The stream of events says whether the service can be reached.
+      }
+    }
+  }
+
+  #show_early({ point, pictures }) {
+    const urls = pictures.map(({ url }) => url).join();
+    if (urls === "" || urls === this.#early_urls) return;
+    this.#early_urls = urls;
+    this.#early.hidden = false;
+    const at = point_text(point, this.#report.spec);
+    set_children(
+      this.#early,
+      el(
+        "h2",
+        {},
+        at ? `Pictures at ${at}; their times are being measured` : "Pictures; their times are being measured",
+      ),
+      el(
+        "div",
+        { class: "early-pictures" },
+        pictures.map(({ label, url }) =>
+          el("figure", {}, el("img", { src: url, alt: label }), el("figcaption", {}, label)),
+        ),
+      ),
+    );
   }
 
   async #watch_queue() {

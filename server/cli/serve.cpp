@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "server/archive/data_folder.h"
 #include "server/archive/sqlite_store.h"
 #include "server/children/device_list.h"
 #include "server/children/shading_check.h"
@@ -113,6 +114,7 @@ void serve(const ServeOptions& options) {
         .without_sandbox = note_sandbox(config.sandbox),
         .needs_sandbox = config.sandbox.required,
         .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); },
+        .scratch = DataFolder{config.data}.scratch(),
         .path_prefix = config.path_prefix,
         .metrics = [&observer] { return observer.metrics(); }};
     const http::Application application(

@@ -1,5 +1,7 @@
 #include "server/http/answers.h"
 
+#include "renderer/results/schemas.h"
+
 namespace sheer {
 
 using nlohmann::json;
@@ -190,6 +192,26 @@ const Description<answer::AcceptedReport>& description_of() {
             .member(&AcceptedReport::accepted_at, "accepted_at", "UTC, RFC 3339")
             .member(&AcceptedReport::by, "by", "who accepted it; may be empty")
             .member(&AcceptedReport::reason, "reason", "why; may be empty");
+    return description;
+}
+
+template <>
+const Description<answer::EarlyPicture>& description_of() {
+    using answer::EarlyPicture;
+    static const auto description =
+        Description<EarlyPicture>("EarlyPicture", "a picture of a report that is not done")
+            .member(&EarlyPicture::label, "label", "of its method, or Reference")
+            .member(&EarlyPicture::url, "url", "path of the picture; it is gone when the report has ended");
+    return description;
+}
+
+template <>
+const Description<answer::EarlyPictures>& description_of() {
+    using answer::EarlyPictures;
+    static const auto description =
+        Description<EarlyPictures>("EarlyPictures", "the pictures of a report that is being timed")
+            .json(&EarlyPictures::point, "point", "the point of the sweep; {} without one", point_schema)
+            .member(&EarlyPictures::pictures, "pictures", "the reference first; empty if there are none");
     return description;
 }
 

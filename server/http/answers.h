@@ -98,6 +98,16 @@ struct AcceptedReport {
     std::string report, url, title, spec_sha256, device, accepted_at, by, reason;
 };
 
+/// A picture of a report that is not done.
+struct EarlyPicture {
+    std::string label, url;
+};
+
+struct EarlyPictures {
+    nlohmann::json point = nlohmann::json::object();
+    std::vector<EarlyPicture> pictures;
+};
+
 struct Pin {
     std::string report, url, pinned_at, by, reason;
 };
@@ -166,6 +176,10 @@ template <>
 const Description<http::answer::AssetList>& description_of();
 template <>
 const Description<http::answer::AcceptedReport>& description_of();
+template <>
+const Description<http::answer::EarlyPicture>& description_of();
+template <>
+const Description<http::answer::EarlyPictures>& description_of();
 template <>
 const Description<http::answer::Pin>& description_of();
 template <>

@@ -49,6 +49,7 @@ void add_answers(SchemaBook& book) {
     schema_in<answer::AssetList>(book);
     schema_in<answer::BaselineList>(book);
     schema_in<answer::Pin>(book);
+    schema_in<answer::EarlyPictures>(book);
     schema_in<answer::Trend>(book);
     schema_in<answer::Health>(book);
     schema_in<answer::Readiness>(book);

@@ -13,6 +13,7 @@ std::vector<Topic> all_topics() {
     return {
         {{"Submit", "Check specs, and queue comparisons"}, submit_routes},
         {{"Report", "One report, in the forms that programs and people read"}, report_routes},
+        {{"Early", "Pictures of a report that is not done"}, early_routes},
         {{"Diff", "Two reports compared with each other"}, diff_routes},
         {{"Pixel", "One pixel of a report"}, pixel_routes},
         {{"Archive", "The list of reports, and their pictures"}, archive_routes},

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct Service {
     /// What a compiler says of the user's own shading, "" for nothing; see children/shading_check.h. Null: shadings
     /// are compiled only when they are rendered.
     std::function<std::string(const std::string& glsl)> check_shading = {};
+    /// Where the workers of this machine write until a report is done.
+    std::filesystem::path scratch = {};
     /// See path_prefix.h.
     std::string path_prefix = {};
     /// In the text format of Prometheus; null for none.
@@ -47,6 +50,7 @@ void require_sandbox(const Service& service, const std::string& what);
 // The calls by topic. `service` must outlive the routes.
 std::vector<Route> submit_routes(Service& service);    ///< POST /reports, /specs/validate
 std::vector<Route> report_routes(Service& service);    ///< one report
+std::vector<Route> early_routes(Service& service);     ///< pictures of a report that is not done
 std::vector<Route> diff_routes(Service& service);      ///< two reports compared with each other
 std::vector<Route> pixel_routes(Service& service);     ///< one pixel of a report
 std::vector<Route> archive_routes(Service& service);   ///< the list of reports, the pictures

@@ -212,3 +212,27 @@ test("the archive is listed in pages, newest first, and searched", () =>
     assert.deepEqual(wrong.errors.map((error) => error.pointer).sort(), ["/colour", "/limit"]);
     assert.ok(!existsSync(join(service.data, "scratch")));
   }));
+
+test("the pictures of a report can be looked at while its times are measured", () =>
+  with_service({}, async (service) => {
+    const { id } = await (await service.post(lasting(300))).json();
+    const early = async () => (await fetch(`${service.api}/reports/${id}/early`)).json();
+    const { point, pictures: drawn } = await until(async () => {
+      const answer = await early();
+      return answer.pictures.length > 0 && answer;
+    }, "pictures");
+    assert.deepEqual(point, {});
+    assert.deepEqual(
+      drawn.map(({ label }) => label),
+      ["Reference", "b2f", "f2b"],
+    );
+    for (const { url } of drawn) {
+      const response = await fetch(service.origin + url);
+      assert.equal(response.headers.get("content-type"), "image/png");
+      assert.equal(sha256(Buffer.from(await response.arrayBuffer())), url.split("/").pop());
+    }
+    assert.equal((await fetch(`${service.api}/reports/${id}/early/${"0".repeat(64)}`)).status, 404);
+    assert.equal((await fetch(`${service.api}/reports/${id}/early/..%2Fearly.json`)).status, 404);
+    await fetch(`${service.api}/reports/${id}`, { method: "DELETE" });
+    await until(async () => (await early()).pictures.length === 0, "no pictures after the end");
+  }));

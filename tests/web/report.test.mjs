@@ -242,16 +242,24 @@ page_test("a printed report shows every picture and whole tables", {}, async (pa
   assert.deepEqual(cut, []);
 });
 
-page_test("a running comparison can be cancelled", {}, async (page) => {
+page_test("a running comparison shows its pictures and can be cancelled", {}, async (page) => {
   const spec = {
     title: "Long one",
-    image: { width: 512, height: 512 },
-    scene: { type: "quads", count: 4096, shading: "4x4-textures" },
+    image: { width: 128, height: 128 },
+    scene: { type: "quads", count: 64, shading: "4x4-textures" },
     methods: ["b2f", "f2b"],
     timing: { rounds: 1000, max_seconds: 600 },
   };
   const { id } = await post_report(spec);
   await page.goto(`${tests.url()}/#/reports/${id}`);
+  const pictures = page.locator(".early img");
+  await pictures.nth(2).waitFor();
+  assert.deepEqual(await pictures.evaluateAll((all) => all.map(({ alt }) => alt)), ["Reference", "b2f", "f2b"]);
+  const drawn = await pictures.evaluateAll((all) =>
+    Promise.all(all.map((one) => one.decode().then(() => one.naturalWidth))),
+  );
+  assert.deepEqual(drawn, [128, 128, 128]);
+  await assert_accessible(page, "a running comparison");
   await page.getByRole("button", { name: "Cancel" }).click();
   await page.getByText("This comparison was cancelled.").waitFor({ timeout: RENDER_MS });
   assert.equal((await api(`/reports/${id}`)).status, "cancelled");

@@ -12,6 +12,7 @@
 #include "renderer/params/json_text.h"
 #include "renderer/passes/pass.h"
 #include "renderer/pictures/blob_sink.h"
+#include "renderer/pictures/early_pictures.h"
 #include "renderer/report/qualification.h"
 #include "renderer/report/report.h"
 #include "server/cli/rendering/commands.h"
@@ -80,7 +81,8 @@ int run_render(const RenderArguments& options) {
             [](double fraction, const std::string& stage) {
                 say({{"progress", fraction}, {"stage", stage}});
             },
-            [&](const Run& run) { maker.add(run); }, maker.undecided());
+            [&](const Run& run) { maker.add(run); }, maker.undecided(),
+            [&](const Run& run) { write_early_pictures(run, sink, options.out); });
         const report::Report report = maker.finish();
         write_file(std::filesystem::path(options.out) / "report.json", json_line(to_document(report)));
         return report.verdict == report::ReportVerdict::failed ? exit_check_failed : exit_ok;
