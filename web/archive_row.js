@@ -12,6 +12,9 @@ function thumbnail(entry) {
   );
 }
 
+/** A renderer's name without what follows in brackets: "llvmpipe (LLVM 15.0.6, 256 bits)" is llvmpipe. */
+const short_device = (name) => name.replace(/[ /]*\(.*$/, "") || name;
+
 function verdict_cell(entry) {
   const { status, verdict, progress } = entry;
   return [
@@ -79,6 +82,11 @@ export function archive_row(entry, { box, on_filter, on_gone, on_error }) {
       (entry.methods ?? []).flatMap((method, index) => [index > 0 ? ", " : null, filter("method", method, method)]),
     ),
     el("td", {}, ...verdict_cell(entry).filter(Boolean)),
+    el(
+      "td",
+      { class: "entry-device" },
+      entry.device ? filter("device", entry.device, short_device(entry.device)) : null,
+    ),
     el("td", {}, el("time", { datetime: entry.created_at, title: when(entry.created_at) }, ago(entry.created_at))),
     el("td", {}, delete_button(entry, title, node, { on_gone, on_error })),
   );

@@ -10,8 +10,8 @@ const PAGE_SIZE = 100;
 const TYPING_PAUSE_MS = 250;
 const LIVE_PAUSE_MS = 2000;
 const STATUSES = ["done", "running", "queued", "failed", "cancelled"];
-const FILTERS = { q: "", status: "Status", scene: "Scene", method: "Method" };
-const HEADS = ["", "", "Comparison", "Scene", "Methods", "Verdict", "Date", ""];
+const FILTERS = { q: "", status: "Status", scene: "Scene", method: "Method", device: "Device" };
+const HEADS = ["", "", "Comparison", "Scene", "Methods", "Verdict", "Device", "Date", ""];
 
 function day_of(entry, now = new Date()) {
   const date = new Date(entry.created_at);

@@ -1,6 +1,6 @@
 // A report at #/reports/{id}: its progress while it is rendered, then the report itself.
 import { AddressWriter } from "./address.js";
-import { delete_report, follow, get_columns, get_methods, get_metrics, get_pixel, get_report } from "./api.js";
+import { get_columns, get_methods, get_metrics, get_pixel, get_report } from "./api.js";
 import { change_panel } from "./baselines_view.js";
 import { el, set_children } from "./dom.js";
 import { when } from "./format.js";

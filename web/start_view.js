@@ -77,6 +77,13 @@ function asset_text(asset) {
   return [`${asset.name}: a ${asset.type}`, ...facts.filter(Boolean)].join(", ");
 }
 
+/** What Run does with it. */
+function plan_text({ methods, image }) {
+  const labels = methods.map((method) => method.label ?? method.id ?? method);
+  const size = image?.width ? ` at ${image.width} × ${image.height} px` : "";
+  return `Run draws it by ${labels.join(", ")}${size}, and says which of them to use.`;
+}
+
 /** The place where a file is dropped or chosen, and what can then be done with it. */
 class OwnFile {
   #presets;
@@ -123,6 +130,7 @@ class OwnFile {
           "div",
           { class: "own-ready" },
           el("p", {}, el("strong", {}, asset_text(asset))),
+          el("p", { class: "hint" }, plan_text(spec)),
           note_list(asset.notes ?? []),
           needs_form
             ? [

@@ -10,7 +10,7 @@ const WIDTH = 960;
 const HEIGHT = 280;
 const LEFT = 64;
 const RIGHT = 12;
-const TOP = 12;
+const TOP = 28;
 const BOTTOM = 28;
 const MOST_MARKS = 1500; // points; a longer trend is only a line
 
@@ -77,6 +77,11 @@ function chart(trend) {
       when(created_at),
     ),
   );
+  const name = svg(
+    "text",
+    { class: "tick", x: LEFT - 8, y: TOP - 14 },
+    unit ? `${trend.metric}, ${unit}` : trend.metric,
+  );
   return svg(
     "svg",
     {
@@ -86,6 +91,7 @@ function chart(trend) {
       "aria-label": `${trend.metric} of ${trend.method}`,
     },
     ticks,
+    name,
     band,
     line,
     marks,
