@@ -1,23 +1,17 @@
 // The page: chooses the view for the address.
 import { split_hash } from "./address.js";
-import { show_archive } from "./archive_view.js";
-import { show_baselines } from "./baselines_view.js";
-import { show_compare } from "./compare_view.js";
-import { show_diff } from "./diff_view.js";
 import { el, set_children } from "./dom.js";
 import { accept_drops } from "./drop.js";
-import { show_report } from "./report_page.js";
-import { show_start } from "./start_view.js";
-import { show_trend } from "./trend_view.js";
 
+/** Each view is loaded when it is shown for the first time. */
 const ROUTES = [
-  [/^#?\/?$/, show_start],
-  [/^#\/new$/, show_compare],
-  [/^#\/reports\/?$/, show_archive],
-  [/^#\/reports\/([^/]+)$/, show_report],
-  [/^#\/baselines\/?$/, show_baselines],
-  [/^#\/trends\/([^/]+)$/, show_trend],
-  [/^#\/diff\/([^/]+)\/([^/]+)$/, show_diff],
+  [/^#?\/?$/, async () => (await import("./start_view.js")).show_start],
+  [/^#\/new$/, async () => (await import("./compare_view.js")).show_compare],
+  [/^#\/reports\/?$/, async () => (await import("./archive_view.js")).show_archive],
+  [/^#\/reports\/([^/]+)$/, async () => (await import("./report_page.js")).show_report],
+  [/^#\/baselines\/?$/, async () => (await import("./baselines_view.js")).show_baselines],
+  [/^#\/trends\/([^/]+)$/, async () => (await import("./trend_view.js")).show_trend],
+  [/^#\/diff\/([^/]+)\/([^/]+)$/, async () => (await import("./diff_view.js")).show_diff],
 ];
 
 class Page {
@@ -27,7 +21,7 @@ class Page {
   #on_query = null;
 
   /** `file`: a dropped file for the start page. */
-  show({ moved = false, file = null } = {}) {
+  async show({ moved = false, file = null } = {}) {
     const { path, query } = split_hash(location.hash);
     if (path === "#main") return;
     // A view that is shown already takes over what "back" and "forward" change in its query.
@@ -37,19 +31,21 @@ class Page {
     }
     this.#path = path;
     this.#leave?.abort();
-    this.#leave = new AbortController();
+    const leave = (this.#leave = new AbortController());
     this.#on_query = null;
     document.documentElement.classList.remove("has-filling");
     this.#mark_current(path);
-    const [pattern, view] = ROUTES.find(([one]) => one.test(path)) ?? [/.*/, show_nothing];
+    const [pattern, load] = ROUTES.find(([one]) => one.test(path)) ?? [/.*/, async () => show_nothing];
     const parts = pattern
       .exec(path)
       .slice(1)
       .map((part) => decodeURIComponent(part));
+    const view = await load().catch(() => show_lost);
+    if (leave.signal.aborted) return;
     const on_query = (take) => {
       this.#on_query = take;
     };
-    view(this.#main, this.#leave.signal, { parts, query, on_query, file });
+    view(this.#main, leave.signal, { parts, query, on_query, file });
     if (!moved) return;
     window.scrollTo(0, 0);
     this.#main.focus({ preventScroll: true });
@@ -66,23 +62,34 @@ class Page {
   }
 }
 
-function show_nothing(main) {
+function plain_page(main, title, text, ...actions) {
   document.title = "Sheer";
   set_children(
     main,
     el(
       "section",
       { class: "plain-page" },
-      el("h1", {}, "Not found"),
-      el("p", {}, "There is no such page."),
-      el(
-        "div",
-        { class: "actions" },
-        el("a", { class: "button", href: "#/" }, "Start"),
-        el("a", { class: "button", href: "#/reports" }, "All reports"),
-      ),
+      el("h1", {}, title),
+      el("p", {}, text),
+      el("div", { class: "actions" }, actions),
     ),
   );
+}
+
+function show_nothing(main) {
+  plain_page(
+    main,
+    "Not found",
+    "There is no such page.",
+    el("a", { class: "button", href: "#/" }, "Start"),
+    el("a", { class: "button", href: "#/reports" }, "All reports"),
+  );
+}
+
+/** A part of the page itself could not be loaded. */
+function show_lost(main) {
+  const again = el("button", { type: "button", onclick: () => location.reload() }, "Load again");
+  plain_page(main, "The server is not reachable", "This part of the page could not be loaded.", again);
 }
 
 const page = new Page();

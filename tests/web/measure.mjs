@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { gzipSync } from "node:zlib";
 import { start_browser, start_service } from "./harness.mjs";
 
-const REPEATS = 7;
+const REPEATS = 5;
 const ARCHIVE = 10_000;
 const AT_ONCE = 16;
 const WINDOW = { width: 1280, height: 860 };
@@ -33,7 +33,7 @@ async function post(spec, wait = true) {
 
 const quads = (size, count, methods, more = {}) => ({
   image: { width: size, height: size },
-  scene: { type: "quads", count, shading: "4-textures", texture: { size: 256 } },
+  scene: { type: "quads", count, shading: "1-texture", texture: { size: 256 } },
   methods,
   baseline: methods[0],
   timing: { warmup: 1, rounds: 1 },
@@ -60,7 +60,7 @@ async function opened(path, selector) {
 }
 
 async function paint() {
-  const report = await post(quads(512, 256, ["b2f", "f2b", "f2bd", "unsorted"]));
+  const report = await post(quads(512, 64, ["b2f", "f2b", "f2bd", "unsorted"]));
   return opened(`/#/reports/${report.id}`, ".pane-view");
 }
 
@@ -106,7 +106,7 @@ async function frames(page, act) {
 }
 
 async function two_pictures() {
-  const report = await post(quads(2048, 512, ["b2f", "unsorted"]));
+  const report = await post(quads(2048, 256, ["b2f", "unsorted"]));
   const page = await browser.newPage({ viewport: WINDOW });
   const told = [];
   const open = async (query) => {
@@ -154,7 +154,7 @@ async function weight() {
 }
 
 async function file() {
-  const report = await post(quads(512, 1024, ["b2f", "f2b", "f2bd", "unsorted", "wboit", "mboit"]));
+  const report = await post(quads(512, 256, ["b2f", "f2b", "f2bd", "unsorted", "wboit", "mboit"]));
   const html = await (await fetch(`${service.url}/api/v1/reports/${report.id}/report.html`)).arrayBuffer();
   return `report.html of 6 methods at 512 × 512: ${(html.byteLength / 1e6).toFixed(1)} MB`;
 }
