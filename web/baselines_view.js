@@ -52,7 +52,9 @@ function baseline_section({ name, reports }, on_forget) {
           el(
             "tr",
             {},
-            ["Report", "Accepted", "By", "Why", "Device", ""].map((text) => el("th", { scope: "col" }, text)),
+            ["Report", "Accepted", "By", "Why", "Device", ""].map((text) =>
+              text ? el("th", { scope: "col" }, text) : el("td"),
+            ),
           ),
         ),
         el("tbody", {}, reports.map(row)),
