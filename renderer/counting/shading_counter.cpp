@@ -169,6 +169,14 @@ void ShadingCounter::draw_transparent(const gl::Program& program, Order order, s
     m_early ? draw_early(program, order, first, count) : draw_late(program, order, first, count);
 }
 
+/// Its fragments meet no test but the shader's own.
+void ShadingCounter::gather(const gl::Program& program) {
+    const Variants& variants = variants_of(program);
+    Tally& tally = tally_of({Specified::nowhere, DrawKind()});
+    prepare(program, variants.late, m_early ? tally.early : tally.late);
+    m_scene.gather_unobserved(variants.late);
+}
+
 void ShadingCounter::draw_late(const gl::Program& program, Order order, std::size_t first, std::size_t count) {
     const Variants& variants = variants_of(program);
     prepare(program, variants.late, tally_of({variants.specified, with_state(variants.shader, m_gl)}).late);

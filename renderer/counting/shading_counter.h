@@ -45,6 +45,7 @@ class ShadingCounter : public DrawObserver {
     /// Chooses the tests for the frames that follow; late ones at first. Frames must be drawn with both before read().
     void test_early(bool early) { m_early = early; }
     void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) override;
+    void gather(const gl::Program& program) override;
 
     /// Waits for the device.
     ShadingCount read(EarlyTests& early_tests) const;

@@ -22,7 +22,14 @@ struct ShaderKind {
 using Shader = Object<ShaderKind>;
 
 std::string_view stage_name(GLenum stage) {
-    return stage == GL_VERTEX_SHADER ? "vertex" : "fragment";
+    switch (stage) {
+        case GL_VERTEX_SHADER:
+            return "vertex";
+        case GL_FRAGMENT_SHADER:
+            return "fragment";
+        default:
+            return "compute";
+    }
 }
 
 using GetParameter = PFNGLGETSHADERIVPROC;
@@ -228,10 +235,23 @@ Program::Program(const Functions& gl, std::string_view label, std::string_view v
     : m_gl(&gl), m_vertex_source(vertex_source), m_fragment_source(fragment_source) {
     const Shader vertex = compile(gl, label, GL_VERTEX_SHADER, vertex_source);
     const Shader fragment = compile(gl, label, GL_FRAGMENT_SHADER, fragment_source);
+    link(label, {vertex.id(), fragment.id()});
+}
+
+Program Program::compute(const Functions& gl, std::string_view label, std::string_view source) {
+    const Shader shader = compile(gl, label, GL_COMPUTE_SHADER, source);
+    Program program;
+    program.m_gl = &gl;
+    program.link(label, {shader.id()});
+    return program;
+}
+
+void Program::link(std::string_view label, std::initializer_list<GLuint> shaders) {
+    const Functions& gl = *m_gl;
     m_object = Object<ProgramKind>(gl, gl.CreateProgram(), label);
-    for (GLuint shader : {vertex.id(), fragment.id()}) gl.AttachShader(id(), shader);
+    for (GLuint shader : shaders) gl.AttachShader(id(), shader);
     gl.LinkProgram(id());
-    for (GLuint shader : {vertex.id(), fragment.id()}) gl.DetachShader(id(), shader);
+    for (GLuint shader : shaders) gl.DetachShader(id(), shader);
     GLint linked = GL_FALSE;
     gl.GetProgramiv(id(), GL_LINK_STATUS, &linked);
     if (linked == GL_FALSE) {

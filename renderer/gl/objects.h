@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -120,6 +121,8 @@ class Program {
     Program() = default;
     Program(const Functions& gl, std::string_view label, std::string_view vertex_source,
             std::string_view fragment_source);
+    /// One with a compute stage alone.
+    static Program compute(const Functions& gl, std::string_view label, std::string_view source);
 
     GLuint id() const { return m_object.id(); }
     void use() const;
@@ -146,6 +149,7 @@ class Program {
     void set_texture(const char* name, const Texture& texture) const;
 
   private:
+    void link(std::string_view label, std::initializer_list<GLuint> shaders);
     void copy_element(const Program& other, const std::string& name, GLenum type) const;
 
     const Functions* m_gl = nullptr;

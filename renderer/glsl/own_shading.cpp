@@ -114,6 +114,14 @@ void check_name(const GlslToken& token) {
         throw GlslError(token.line, fmt::format("has {}; names with this prefix are reserved", token.text));
 }
 
+/// Reading a texture without a level takes them too.
+bool takes_derivatives(std::string_view function) {
+    static constexpr std::array<std::string_view, 8> others = {
+        "fwidth",        "fwidthFine",  "fwidthCoarse",      "texture",
+        "textureOffset", "textureProj", "textureProjOffset", "textureQueryLod"};
+    return function.starts_with("dFd") || std::ranges::find(others, function) != others.end();
+}
+
 /// Appends `&& sheer_next()` to the condition of every loop.
 class LoopCounter {
   public:
@@ -188,6 +196,7 @@ GlslShading make_glsl_shading(const std::string& body) {
         check_name(token);
         shading.has_loops |= token.text == "for" || token.text == "while";
         shading.is_textured |= token.text == "sample_texture";
+        shading.takes_derivatives |= takes_derivatives(token.text);
     }
     const std::string text = guard_glsl(uncommented);
     // On the user's own lines, so that no error can be before the first or after the last one.

@@ -19,6 +19,8 @@ struct GlslShading {
     std::string function;      ///< GLSL of `vec4 sheer_own_work(vec2 uv, vec4 tint)`
     bool has_loops = false;    ///< each of them calls sheer_next() before an iteration
     bool is_textured = false;  ///< it names sample_texture
+    /// It calls a function whose result depends on the neighbours of a fragment.
+    bool takes_derivatives = false;
 };
 
 /// Makes the function from its body: printable ASCII without directives, with matching brackets and within the limits

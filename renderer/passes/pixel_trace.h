@@ -74,6 +74,8 @@ class PixelTrace : public DrawObserver {
     std::optional<std::size_t> at_depth(double depth) const;
 
     void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) override;
+    /// Nothing is recorded.
+    void gather(const gl::Program& program) override { m_scene.gather_unobserved(program); }
 
   private:
     struct Step {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <numeric>
+#include <regex>
 #include <stdexcept>
 
 #include "renderer/core/errors.h"
@@ -90,6 +91,7 @@ Scene::Scene(const gl::Functions& gl, const Geometry& geometry, const nlohmann::
                                  static_cast<GLsizeiptr>((empty ? 1 : geometry.vertices.size()) * sizeof(Vertex)),
                                  empty ? &none : geometry.vertices.data());
     m_vertex_array = gl::make_vertex_array(gl, "scene vertex array");
+    m_no_attributes = gl::make_vertex_array(gl, "gathered scene");
     const GLuint array = m_vertex_array.id();
     gl.VertexArrayVertexBuffer(array, 0, m_vertices.id(), 0, sizeof(Vertex));
     gl.VertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
@@ -156,7 +158,7 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
     if (parameters.at("shading").is_object()) return add_own_shading(geometry, parameters);
     const auto name = parameters.at("shading").get<std::string>();
     if (const Shading* shading = find_shading(name)) {
-        m_reads = shading->reads;
+        m_reads = m_most_iterations = shading->reads;
         m_shading_source += define("TEXTURED", shading->reads > 0) + define("MATH", shading->math);
         m_shading_source += gl::shader_file("scenes/real_work.glsl");
         if (shading->reads > 0) make_textures(geometry, parameters.at("texture"));
@@ -164,12 +166,15 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
         m_shading_source += material_defines(geometry);
         m_shading_source += gl::shader_file("scenes/" + name + ".glsl");
         if (geometry.volume) m_volume = VolumeTextures(m_gl, *geometry.volume);
+        m_most_iterations = geometry.volume ? 4 : 0;  // whether it is lit, and three axes
     }
 }
 
 void Scene::add_own_shading(const Geometry& geometry, const nlohmann::json& parameters) {
     const GlslShading own = make_glsl_shading(parameters.at("shading").at("glsl"));
     m_counts_iterations = own.has_loops;
+    m_takes_derivatives = own.takes_derivatives;
+    m_most_iterations = 1 + (own.has_loops ? iterations_per_fragment : 0);
     m_reads = 1;
     m_shading_source += define("SHEER_TEXTURED", own.is_textured) + define("SHEER_ITERATIONS", iterations_per_fragment);
     m_shading_source += gl::shader_file("scenes/glsl_shading.glsl");
@@ -257,7 +262,7 @@ void Scene::fill_painted_layer(GLint layer, const std::vector<TextureLevel>& lev
 
 gl::Program Scene::make_program(std::string_view label, std::string_view method_source,
                                 const std::string& prolog) const {
-    return build_program(label, m_vertex_source, method_source, prolog);
+    return build_program(label, m_vertex_source, m_shading_source, method_source, prolog);
 }
 
 gl::Program Scene::make_skipping_program(std::string_view label, std::string_view method_source,
@@ -266,13 +271,26 @@ gl::Program Scene::make_skipping_program(std::string_view label, std::string_vie
     return build_program(
         label,
         glsl_version + define("SHEER_SKIPS", 1) + m_vertex_source.substr(after_version) + std::string(skip_source),
-        method_source, prolog);
+        m_shading_source, method_source, prolog);
+}
+
+gl::Program Scene::make_gathering_program(std::string_view label, std::string_view method_source,
+                                          const std::string& prolog) const {
+    if (m_takes_derivatives)
+        throw Unsupported(
+            "the scene's own GLSL takes derivatives, which only neighbouring fragments of a primitive have");
+    // What the pipeline says about the fragment is about the whole picture here.
+    static const std::regex built_in("\\bgl_(FragCoord|FrontFacing)\\b");
+    return build_program(label, gl::shader_file("common/fullscreen.vert.glsl"),
+                         std::regex_replace(m_shading_source, built_in, "sheer_$1"), method_source,
+                         define("SHEER_GATHERS", 1) + prolog);
 }
 
 gl::Program Scene::build_program(std::string_view label, const std::string& vertex_source,
-                                 std::string_view method_source, const std::string& prolog) const {
+                                 const std::string& shading_source, std::string_view method_source,
+                                 const std::string& prolog) const {
     const std::string report = m_reports_loops ? define("SHEER_REPORT_LOOPS", loop_report_binding) : "";
-    const std::string fragment = glsl_version + prolog + report + m_shading_source +
+    const std::string fragment = glsl_version + prolog + report + shading_source +
                                  std::string(gl::shader_file("scenes/count_shaded.glsl")) + std::string(method_source);
     try {
         return gl::Program(m_gl, label, vertex_source, fragment);
@@ -288,12 +306,38 @@ void Scene::bind(const gl::Program& program, const gl::Buffer& indices) const {
     program.set("u_view_projection", m_view_projection);
     m_gl.BindVertexArray(m_vertex_array.id());
     m_gl.VertexArrayElementBuffer(m_vertex_array.id(), indices.id());
+    bind_shading(program);
+}
+
+void Scene::bind_shading(const gl::Program& program) const {
     program.set("u_reads", m_reads);
     if (m_textures) m_gl.BindTextureUnit(0, m_textures.id());
     m_volume.bind(m_gl, program);
     if (m_materials) m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, materials_binding, m_materials.id());
     for (std::size_t array = 0; array < m_pictures.size(); ++array)
         m_gl.BindTextureUnit(pictures_unit + static_cast<GLuint>(array), m_pictures[array].id());
+}
+
+void Scene::bind_triangles(const gl::Program& program, Order order) const {
+    program.set("u_view_projection", m_view_projection);
+    m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, m_vertices.id());
+    m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, list(order).indices.id());
+    if (m_emission_uvs) m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, m_emission_uvs.id());
+}
+
+void Scene::gather(const gl::Program& program) const {
+    if (m_observer) {
+        m_observer->gather(program);
+    } else {
+        gather_unobserved(program);
+    }
+}
+
+void Scene::gather_unobserved(const gl::Program& program) const {
+    program.use();
+    bind_shading(program);
+    m_gl.BindVertexArray(m_no_attributes.id());
+    m_gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 float Scene::least_alpha(double reference) const {

@@ -16,6 +16,8 @@ class DrawObserver {
     virtual ~DrawObserver() = default;
     /// Replaces Scene::draw_transparent; draws with Scene::draw_unobserved.
     virtual void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) = 0;
+    /// Replaces Scene::gather; draws with Scene::gather_unobserved.
+    virtual void gather(const gl::Program& program) = 0;
 };
 
 /// A scene on the device: geometry in each order, textures, and the shading `real_work`.
@@ -56,6 +58,21 @@ class Scene {
     gl::Program make_skipping_program(std::string_view label, std::string_view method_source,
                                       std::string_view skip_source, const std::string& prolog = {}) const;
 
+    /// A program over the whole picture whose main() finds its fragments itself: it sets what
+    /// shaders/scenes/inputs.glsl declares for it, then calls begin_fragment() and real_work(). Throws Unsupported if
+    /// the shading takes derivatives.
+    gl::Program make_gathering_program(std::string_view label, std::string_view method_source,
+                                       const std::string& prolog) const;
+    /// Draws with it over the whole of the current framebuffer.
+    void gather(const gl::Program& program) const;
+    void gather_unobserved(const gl::Program& program) const;
+    /// Lets a program read the vertices, 32-bit words as in Vertex, at binding 0, the indices of the transparent
+    /// triangles in this order at 1, and the texture coordinates of emission, if there are any, at 6.
+    void bind_triangles(const gl::Program& program, Order order) const;
+    bool has_emission_uvs() const { return static_cast<bool>(m_emission_uvs); }
+    /// Of all loops of the shading of one fragment together, the most iterations.
+    int most_iterations() const { return m_most_iterations; }
+
     /// Whether the shading is the user's own and has loops, which count their iterations.
     /// (renderer/counting/loop_check.h.)
     bool counts_iterations() const { return m_counts_iterations; }
@@ -81,7 +98,8 @@ class Scene {
         std::vector<std::size_t> first_index;   ///< of each primitive, and one past the last
         std::vector<std::uint32_t> primitives;  ///< their numbers
     };
-    gl::Program build_program(std::string_view label, const std::string& vertex_source, std::string_view method_source,
+    gl::Program build_program(std::string_view label, const std::string& vertex_source,
+                              const std::string& shading_source, std::string_view method_source,
                               const std::string& prolog) const;
     DrawList make_list(const Geometry& geometry, const std::vector<std::size_t>& order, std::string_view label) const;
     void make_shading(const Geometry& geometry, const nlohmann::json& parameters);
@@ -94,6 +112,7 @@ class Scene {
     gl::Texture make_repeating_array(std::string_view label) const;
     void fill_layer(const gl::Texture& texture, GLint layer, GLint first_level, const std::vector<Image>& levels) const;
     void bind(const gl::Program& program, const gl::Buffer& indices) const;
+    void bind_shading(const gl::Program& program) const;
     const DrawList& list(Order order) const { return m_lists[static_cast<std::size_t>(order)]; }
 
     const gl::Functions& m_gl;
@@ -105,12 +124,13 @@ class Scene {
     std::string m_glsl_pointer;
     std::string m_vertex_source;
     std::string m_shading_source;  ///< GLSL with inputs and real_work
-    bool m_counts_iterations = false, m_reports_loops = false;
+    bool m_counts_iterations = false, m_reports_loops = false, m_takes_derivatives = false;
+    int m_most_iterations = 0;
     std::size_t m_transparent_count = 0;
     std::vector<glm::vec4> m_screen_rects;
     GLsizei m_opaque_index_count = 0;
     gl::Buffer m_vertices;
-    gl::VertexArray m_vertex_array;
+    gl::VertexArray m_vertex_array, m_no_attributes;
     DrawList m_opaque;
     DrawList m_lists[3];  ///< by Order
     int m_reads = 0;

@@ -31,7 +31,7 @@ vec4 sample_texture(int index, vec2 uv) {
 void begin_fragment() {
     sheer_iterations_left = SHEER_ITERATIONS;
 #if SHEER_TEXTURED
-    vec2 dx = dFdx(v_uv), dy = dFdy(v_uv);
+    vec2 dx = SHEER_UV_DX, dy = SHEER_UV_DY;
     sheer_level_of_detail = 0.5 * log2(max(dot(dx, dx), dot(dy, dy))) + log2(float(textureSize(u_textures, 0).x));
 #endif
 }

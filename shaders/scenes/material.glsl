@@ -89,7 +89,13 @@ vec4 sample_picture(SheerPicture picture, vec2 uv, vec2 dx, vec2 dy) {
 #endif
 
 #if EMISSIVE
+#ifdef SHEER_GATHERS
+vec2 v_emission_uv, v_emission_dx, v_emission_dy;
+#else
 in vec2 v_emission_uv;
+#define v_emission_dx dFdx(v_emission_uv)
+#define v_emission_dy dFdy(v_emission_uv)
+#endif
 
 vec2 emission_dx, emission_dy;
 
@@ -116,12 +122,12 @@ vec3 with_emission(vec3 color) {
 
 void begin_fragment() {
 #if PICTURE_ARRAYS > 0
-    uv_dx = dFdx(v_uv);
-    uv_dy = dFdy(v_uv);
+    uv_dx = SHEER_UV_DX;
+    uv_dy = SHEER_UV_DY;
 #endif
 #if EMISSIVE
-    emission_dx = dFdx(v_emission_uv);
-    emission_dy = dFdy(v_emission_uv);
+    emission_dx = v_emission_dx;
+    emission_dy = v_emission_dy;
 #endif
 }
 

@@ -15,7 +15,7 @@ const int texture_count = 4;
 float level_of_detail;
 
 void begin_fragment() {
-    vec2 dx = dFdx(v_uv), dy = dFdy(v_uv);
+    vec2 dx = SHEER_UV_DX, dy = SHEER_UV_DY;
     level_of_detail = 0.5 * log2(max(dot(dx, dx), dot(dy, dy))) + log2(float(textureSize(u_textures, 0).x));
 }
 

@@ -123,7 +123,7 @@ TEST(Methods, SayWhichParameterSaturates) {
         EXPECT_EQ(param->max, 1) << method.id;
         EXPECT_EQ(method.saturation_of({{param->name, 0.5}}), 0.5) << method.id;
     }
-    EXPECT_THAT(saturating, ElementsAre("depth_marks", "f2bd", "f2bh", "f2bx"));
+    EXPECT_THAT(saturating, ElementsAre("depth_marks", "f2bd", "f2bg", "f2bh", "f2bx"));
     EXPECT_EQ(find_method("b2f")->saturation_of(json::object()), std::nullopt);
 
     MethodInfo wrong;
