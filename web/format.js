@@ -74,11 +74,14 @@ export function short_value(value) {
   return SHA256.test(text) ? `${text.slice(0, SHOWN_DIGITS)}…` : text;
 }
 
-const ABBREVIATIONS = new Set(["glsl"]);
+const SPELLED = new Map([
+  ["glsl", "GLSL"],
+  ["gltf", "glTF"],
+]);
 
 /** snake_case to words with an initial capital. */
 export function words(name) {
-  if (ABBREVIATIONS.has(name)) return name.toUpperCase();
+  if (SPELLED.has(name)) return SPELLED.get(name);
   const text = name.replaceAll("_", " ");
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
