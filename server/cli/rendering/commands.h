@@ -13,7 +13,7 @@ void add_diff(CLI::App& app, int& exit_code);
 void add_docs(CLI::App& app, int& exit_code);     ///< for ./dev docs; not shown in the help
 void add_gallery(CLI::App& app, int& exit_code);  ///< hidden: see ./dev gallery
 void add_litmus(CLI::App& app, int& exit_code);
-void add_manual(CLI::App& app, int& exit_code);   ///< for packages; not shown in the help
+void add_manual(CLI::App& app, int& exit_code);  ///< for packages; not shown in the help
 void add_pixel(CLI::App& app, int& exit_code);
 void add_qualify(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);
