@@ -141,8 +141,9 @@ test("only a terminal gets colours, and NO_COLOR none", () => {
   writeFileSync(join(folder, "log.json"), JSON.stringify({ log_level: "info", workers: 0 }));
   writeFileSync(
     join(folder, "serve.sh"),
-    `"$SHEER" serve --listen 127.0.0.1:0 --data data --config log.json >out.txt & service=$!
-     until grep -q listens out.txt; do sleep 0.05; done
+    `rm -f out.txt
+     "$SHEER" serve --listen 127.0.0.1:0 --data data --config log.json >out.txt & service=$!
+     until grep -qs listens out.txt; do sleep 0.05; done
      kill -HUP $service; sleep 0.5; kill $service; wait $service`,
   );
   const on_terminal = (env) =>
