@@ -19,6 +19,8 @@
 #include <optional>
 #include <system_error>
 
+#include "renderer/core/exit_codes.h"
+
 namespace sheer {
 
 namespace {
@@ -28,6 +30,14 @@ using nlohmann::json;
 // The most that a command line of a child takes.
 constexpr std::size_t command_line_bytes = 4096;
 constexpr std::size_t message_bytes = 65536;
+
+/// Calls again what a signal has interrupted: a request whose answer is missed would leave a child that nobody knows.
+ssize_t uninterrupted(const auto& call) {
+    ssize_t result = -1;
+    do result = call();
+    while (result < 0 && errno == EINTR);
+    return result;
+}
 
 /// A message with up to two files: one end sends, the other receives.
 class Message {
@@ -47,14 +57,15 @@ class Message {
         part->cmsg_type = SCM_RIGHTS;
         part->cmsg_len = CMSG_LEN(files_bytes);
         std::memcpy(CMSG_DATA(part), files.data(), files_bytes);
-        return sendmsg(socket, &m_header, MSG_NOSIGNAL) == static_cast<ssize_t>(m_bytes.iov_len);
+        const ssize_t sent = uninterrupted([&] { return sendmsg(socket, &m_header, MSG_NOSIGNAL); });
+        return sent == static_cast<ssize_t>(m_bytes.iov_len);
     }
 
     /// How many bytes came, and which files, -1 for none.
     ssize_t receive(int socket, int& output, int& input) {
         m_header.msg_control = m_control.data();
         m_header.msg_controllen = m_control.size();
-        const ssize_t count = recvmsg(socket, &m_header, MSG_CMSG_CLOEXEC);
+        const ssize_t count = uninterrupted([&] { return recvmsg(socket, &m_header, MSG_CMSG_CLOEXEC); });
         std::array<int, 2> files{-1, -1};
         if (const cmsghdr* part = CMSG_FIRSTHDR(&m_header); count > 0 && part)
             std::memcpy(files.data(), CMSG_DATA(part), std::min(sizeof(files), part->cmsg_len - CMSG_LEN(0)));
@@ -97,8 +108,8 @@ pid_t fork_sibling(bool own_namespaces) {
 }
 
 /// Some libraries start threads when they are loaded, which a child does not get. Until these rest they may hold a
-/// lock, which in a child nobody would release.
-void wait_until_other_threads_rest() {
+/// lock, which in a child nobody would release. False if they do not within seconds.
+bool wait_until_other_threads_rest() {
     const auto rests = [](const std::filesystem::directory_entry& thread) {
         std::ifstream file(thread.path() / "stat");
         const std::string stat((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -106,11 +117,15 @@ void wait_until_other_threads_rest() {
         return name_end != std::string::npos && stat.substr(name_end).starts_with(") S");
     };
     const std::string own = std::to_string(gettid());
-    for (bool all_rest = false; !all_rest; usleep(1000)) {
-        all_rest = true;
-        for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task"))
-            if (thread.path().filename() != own) all_rest = all_rest && rests(thread);
+    const auto rests_or_is_this_one = [&](const std::filesystem::directory_entry& thread) {
+        return thread.path().filename() == own || rests(thread);
+    };
+    for (int tries = 0; tries < 10000; ++tries) {
+        if (std::ranges::all_of(std::filesystem::directory_iterator("/proc/self/task"), rests_or_is_this_one))
+            return true;
+        usleep(1000);
     }
+    return false;
 }
 
 /// Writes the words over the command line of this process, as far as they fit.
@@ -186,18 +201,19 @@ std::optional<pid_t> ForkServer::ask(const ChildOptions& options, int output) {
     pid_t child = -1;
     if (m_socket < 0) return std::nullopt;
     if (!Message(bytes.data(), bytes.size()).send(m_socket, output, options.input)) return std::nullopt;
-    if (recv(m_socket, &child, sizeof(child), 0) != sizeof(child)) return std::nullopt;
+    const ssize_t received = uninterrupted([&] { return recv(m_socket, &child, sizeof(child), 0); });
+    if (received != sizeof(child)) return std::nullopt;
     return child;
 }
 
 std::vector<std::string> serve_forks(int socket, int argc, char** argv) {
     const pid_t parent = getppid();
-    wait_until_other_threads_rest();
+    // Without it children are started as programs.
+    if (!wait_until_other_threads_rest()) _exit(exit_not_started);
     std::string bytes(message_bytes, '\0');
     while (true) {
         int output = -1, input = -1;
         const ssize_t count = Message(bytes.data(), bytes.size()).receive(socket, output, input);
-        if (count < 0 && errno == EINTR) continue;
         if (count <= 0) _exit(0);
         ChildOptions options = options_of(json::parse(bytes.begin(), bytes.begin() + count));
         options.input = input;
