@@ -1,11 +1,10 @@
 // The answer of a report: which method to use, and a row for each of them to judge it by.
 import { advise, ANY, EYE_LIMIT, tally } from "./advice.js";
 import { el, select, set_children } from "./dom.js";
-import { DASH, fixed, integer, is_number } from "./format.js";
+import { DASH, fixed, integer, is_number, memory_text, MIB } from "./format.js";
 
 const ERROR_LIMITS = [0.001, 0.01, EYE_LIMIT, 0.05, 0.1];
 const MEMORY_LIMITS_MIB = [1, 4, 16, 64];
-const MIB = 2 ** 20;
 const MORE_ROUNDS = 20;
 
 const percent = (share) => `${Math.round(share * 100)} %`;
@@ -95,9 +94,6 @@ function bar_cell(value, full, text, { whisker = null, missing = "", kind = "" }
     el("span", { class: "track", "aria-hidden": "true" }, fill, line),
   );
 }
-
-const memory_text = (bytes) =>
-  !is_number(bytes) ? DASH : bytes === 0 ? "0" : `${bytes < 0.1 * MIB ? "under 0.1" : fixed(bytes / MIB, 1)} MiB`;
 
 function verdict_words(entry, { chosen, by }) {
   if (entry === chosen) return [by === "baseline" ? "keep this" : "use this", "faster"];

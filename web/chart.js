@@ -32,6 +32,12 @@ function marker(index, x, y, name = "") {
   });
 }
 
+/** The area of a ring stands for `point.share`, 0 to 1, of the greatest value. */
+function ring({ x, y, share, grey, index }) {
+  if (!share) return null;
+  return svg("circle", { class: `ring ${grey ? "grey" : color_class(index)}`, cx: x, cy: y, r: 20 * Math.sqrt(share) });
+}
+
 /** Names of the lines with their colors and shapes; `labels` in the order of the series. */
 export function legend(labels) {
   return el(
@@ -318,7 +324,11 @@ export function scatter_chart({ title, unit, x_name, label, points }) {
     const x = make_scale("log", x_axis.domain, [left + 10, right - 6]);
     const y = make_scale("linear", y_axis.domain, [HEIGHT - BOTTOM, TOP]);
     const placed = points.map((point) => ({ ...point, x: x(point.x), y: y(point.y) }));
-    const front = placed.filter((point) => !point.grey).sort((a, b) => a.x - b.x);
+    // A point that is in front only by a third value is not on the line.
+    const front = placed
+      .filter((point) => !point.grey)
+      .sort((a, b) => a.x - b.x)
+      .filter((point, k, all) => all.slice(0, k).every((quicker) => quicker.y < point.y));
     const steps = front.map((point, k) => (k === 0 ? `M${point.x} ${point.y}` : `H${point.x}V${point.y}`)).join("");
     const bars = placed.map((point) => {
       if (!point.x_interval) return null;
@@ -337,6 +347,7 @@ export function scatter_chart({ title, unit, x_name, label, points }) {
         ),
         svg("path", { class: "front", d: steps }),
         bars,
+        placed.map((point) => ring(point)),
         placed.map((point) => marker(point.index, point.x, point.y, point.grey ? "grey" : "")),
         name_nodes(placed, right),
       ],

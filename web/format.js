@@ -32,6 +32,15 @@ export function integer(value) {
   return is_number(value) ? Math.round(value).toLocaleString("en-US").replace("-", "−") : DASH;
 }
 
+export const MIB = 2 ** 20;
+
+/** Of a method's own textures and buffers: 0, under 0.1 MiB, 3.5 MiB. */
+export function memory_text(bytes) {
+  if (!is_number(bytes)) return DASH;
+  if (bytes === 0) return "0";
+  return `${bytes < 0.1 * MIB ? "under 0.1" : fixed(bytes / MIB, 1)} MiB`;
+}
+
 /** A zoom factor: 25 %, 100 %, 3200 %. */
 export function zoom_text(zoom) {
   return `${Math.round(zoom * 100)} %`;

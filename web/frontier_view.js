@@ -1,8 +1,8 @@
-// Speed versus error of a run's methods: which of them are worth their time, as a chart and in words.
+// Speed, error and memory of a run's methods: which of them are worth their time, as a chart and in words.
 import { scatter_chart } from "./chart.js";
 import { difference_columns, fastest_labels, value_at } from "./columns.js";
 import { el } from "./dom.js";
-import { column_decimals, fixed, is_number } from "./format.js";
+import { column_decimals, fixed, is_number, memory_text } from "./format.js";
 
 /** One line for all methods that are dominated for the same reason. */
 function dominated_lines(dominated) {
@@ -34,6 +34,7 @@ export function frontier_section(run, metrics) {
   if (measured.length === 0) return null;
   const time_decimals = column_decimals(measured.map((one) => one.time_ms));
   const error_decimals = column_decimals(measured.map((one) => one.error));
+  const most_bytes = Math.max(...measured.map(({ result }) => result.memory_bytes ?? 0));
   const points = measured.map(({ result, index, time_ms, error }) => {
     const better = by.get(result.label);
     const interval = result.timing.ci95;
@@ -46,10 +47,12 @@ export function frontier_section(run, metrics) {
       x_interval: interval,
       grey: better !== undefined,
       fastest: fastest.has(result.label),
+      share: most_bytes > 0 ? (result.memory_bytes ?? 0) / most_bytes : 0,
       lines: [
         el("strong", {}, result.label),
         el("span", {}, `${fixed(time_ms, time_decimals)} ms${range}`),
         el("span", {}, `${error_head} ${fixed(error, error_decimals)}`),
+        el("span", {}, `memory ${memory_text(result.memory_bytes)}`),
         better === undefined ? null : el("span", {}, `dominated by ${better}`),
       ],
     };
@@ -73,6 +76,13 @@ export function frontier_section(run, metrics) {
         frontier.sentences.map((sentence) => el("li", {}, sentence)),
       ),
       dominated_lines(frontier.dominated),
+      most_bytes > 0
+        ? el(
+            "p",
+            { class: "muted" },
+            `The area of a ring is the method's own memory; the largest is ${memory_text(most_bytes)}.`,
+          )
+        : null,
     ),
   );
 }

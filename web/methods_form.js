@@ -18,6 +18,36 @@ export function parameter_fields({ parameters }, path, model) {
   );
 }
 
+/** What a method is and what it costs, folded away. */
+function about(method) {
+  const bytes = method.bytes_per_px;
+  const rows = [
+    ["From", method.paper],
+    ["Good at", method.good_at],
+    ["Bad at", method.bad_at],
+    ["Passes", method.passes],
+    ["Memory", method.memory],
+    [
+      "By default",
+      bytes
+        ? `${bytes.rgba8}, ${bytes.rgba16f} and ${bytes.rgba32f} bytes per pixel of rgba8, rgba16f and rgba32f`
+        : "depends on the scene",
+    ],
+    ["Needs", method.needs || "nothing more than blending and a depth test"],
+    ["Sorts", method.needs_sorting ? "yes" : "no"],
+  ];
+  return el(
+    "details",
+    { class: "about" },
+    el("summary", {}, "About this method"),
+    el(
+      "dl",
+      {},
+      rows.map(([caption, text]) => [el("dt", {}, caption), el("dd", {}, text)]),
+    ),
+  );
+}
+
 export class MethodsForm {
   #model;
   #methods;
@@ -94,6 +124,7 @@ export class MethodsForm {
       info ? el("p", { class: "hint" }, info.summary) : null,
       el("div", { class: "fields" }, this.#label_field(method, index)),
       info ? parameter_fields(info, path, this.#model) : null,
+      info ? about(info) : null,
       el("p", { class: "error-text", hidden: true }),
     );
   }

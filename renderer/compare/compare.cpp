@@ -85,8 +85,12 @@ void measure(const Looks& looks, Target& target, Contenders& contenders, Workben
         if (!result.no_metrics_reason.empty()) return;
         const Backdrops over = bench.over_backdrops(method, target, result.image);
         result.opacity = opacity_of(over);
-        result.metrics =
-            compute_metrics(run.reference_image, result.image, &look.reference_over, &over, &run.reference_as_shown);
+        const std::vector<Image8> frames = bench.frames(method, target);
+        result.metrics = compute_metrics(run.reference_image, result.image,
+                                         {.reference_over = &look.reference_over,
+                                          .test_over = &over,
+                                          .reference_as_shown = &run.reference_as_shown,
+                                          .test_frames = &frames});
         if (!look.changes.empty()) result.own_reference = run.reference_as_shown;
     });
 }

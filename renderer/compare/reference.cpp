@@ -21,7 +21,8 @@ void round_reference(const Spec& spec, const Backdrops& reference_over, Workbenc
     const auto rounded = [&](const Image& image) { return rounded_to(spec.image.format, bench.gl(), image); };
     run.reference_as_shown = rounded(run.reference_image);
     const Backdrops over = {rounded(reference_over.black), rounded(reference_over.white)};
-    run.format_cost = compute_metrics(run.reference_image, run.reference_as_shown, &reference_over, &over);
+    run.format_cost = compute_metrics(run.reference_image, run.reference_as_shown,
+                                      {.reference_over = &reference_over, .test_over = &over});
     run.format_cost->pictures.clear();
 }
 

@@ -9,6 +9,8 @@ namespace sheer {
 
 namespace {
 
+constexpr int frames_for_flicker = 4;
+
 /// Restores the spec's background, even after a failure.
 class OtherBackground {
   public:
@@ -111,6 +113,17 @@ Image Workbench::over_background(const std::array<float, 3>& background, Method&
     method.restart();
     render(method, false);
     return target.read();
+}
+
+std::vector<Image8> Workbench::frames(Method& method, const Target& target) {
+    std::vector<Image8> pictures;
+    for (int number = 0; number < frames_for_flicker; ++number) {
+        method.take_noise_of(number);
+        render(method, false);
+        pictures.push_back(quantize(target.read()));
+    }
+    method.take_noise_of(0);
+    return pictures;
 }
 
 Backdrops Workbench::over_backdrops(Method& method, Target& target, const Image& own) {

@@ -42,6 +42,8 @@ class Workbench {
     gl::FrameSample render(Method& method, bool timed);
     std::unique_ptr<Method> make_method(const MethodSpec& method, const Scene& scene, const Target& target) const;
     nlohmann::json findings(Method& method);
+    /// Consecutive frames of the method while nothing in the scene moves, as shown.
+    std::vector<Image8> frames(Method& method, const Target& target);
     /// The method's pictures over a black and a white background; `own` is its picture over the spec's background.
     Backdrops over_backdrops(Method& method, Target& target, const Image& own);
 

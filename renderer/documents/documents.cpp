@@ -95,12 +95,24 @@ void add_rows(std::string& rows, const json& fields, const std::string& pointer)
     }
 }
 
+std::string bytes_text(const json& method) {
+    const auto bytes = method.find("bytes_per_px");
+    if (bytes == method.end()) return "depends on the scene";
+    return fmt::format("{:g}, {:g} and {:g} bytes per pixel of rgba8, rgba16f and rgba32f",
+                       bytes->at("rgba8").get<double>(), bytes->at("rgba16f").get<double>(),
+                       bytes->at("rgba32f").get<double>());
+}
+
 std::string method_section(const json& method) {
     std::string text = fmt::format("\n## {}\n`{}`: {}. {}\n\n| | |\n|---|---|\n", text_of(method, "name"),
                                    text_of(method, "id"), text_of(method, "kind"), text_of(method, "summary"));
     const std::pair<const char*, const char*> rows[] = {
-        {"From", "paper"}, {"Good at", "good_at"}, {"Bad at", "bad_at"}, {"Memory", "memory"}};
+        {"From", "paper"}, {"Good at", "good_at"}, {"Bad at", "bad_at"}, {"Passes", "passes"}, {"Memory", "memory"}};
     for (const auto& [caption, key] : rows) text += fmt::format("| {} | {} |\n", caption, cell(text_of(method, key)));
+    text += fmt::format("| By default | {} |\n", bytes_text(method));
+    const std::string needs = text_of(method, "needs");
+    text +=
+        fmt::format("| Needs | {} |\n", needs.empty() ? "nothing more than blending and a depth test" : cell(needs));
     text += fmt::format("| Sorts | {} |\n", method.at("needs_sorting").get<bool>() ? "yes" : "no");
     if (!method.at("no_metrics_reason").is_null())
         text +=

@@ -71,9 +71,10 @@ MethodInfo method_alpha_test() {
             .good_at = "No sorting, no blending, no extra memory; intersecting primitives are resolved per pixel.",
             .bad_at = "Nothing stays translucent; edges are jagged and sparkle in motion.",
             .memory = "0 bytes per pixel",
+            .passes = "1",
             .needs_sorting = false,
         },
-        AlphaTestParameters::table(), make_new<AlphaTest>,
+        AlphaTestParameters::table(), make_new<AlphaTest>, pixels_and_bytes(0),
         [](const Scene&, const AlphaTestParameters& parameters) { return parameters.order == Order::near_to_far; });
 }
 

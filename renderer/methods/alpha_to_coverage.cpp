@@ -88,9 +88,14 @@ MethodInfo method_alpha_to_coverage() {
             .bad_at =
                 "Only as many levels of alpha as samples; a near layer hides a far one of equal alpha completely.",
             .memory = "for each sample one pixel of the image format and 4 bytes of depth",
+            .passes = "1",
+            .needs = "multisampling",
             .needs_sorting = false,
         },
-        CoverageParameters::table(), make_new<AlphaToCoverage>);
+        CoverageParameters::table(), make_new<AlphaToCoverage>,
+        [](const CoverageParameters& parameters, int pixel_bytes) -> std::optional<double> {
+            return parameters.samples * (pixel_bytes + 4.0);
+        });
 }
 
 }  // namespace sheer

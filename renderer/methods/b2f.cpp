@@ -17,10 +17,13 @@ MethodInfo method_b2f() {
             .bad_at =
                 "Shades every fragment, even those that nearer ones will hide; 8-bit targets round once per layer.",
             .memory = "0 bytes per pixel",
+            .passes = "1",
         },
-        NoParameters::table(), [](const MethodSetup& setup, const NoParameters&) {
+        NoParameters::table(),
+        [](const MethodSetup& setup, const NoParameters&) {
             return std::make_unique<ClassicalBlending>(setup, Order::far_to_near);
-        });
+        },
+        pixels_and_bytes(0));
 }
 
 }  // namespace sheer

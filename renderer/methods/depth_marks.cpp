@@ -106,9 +106,11 @@ MethodInfo method_depth_marks() {
                 "A full-screen pass and state changes after every few primitives; fragments between saturation and "
                 "the next mark are shaded in vain.",
             .memory = "one pixel of the image format",
+            .passes = "1, and full-screen ones: a mark after every few primitives, and the end",
+            .needs = "a depth that the shader writes",
             .saturation_parameter = "threshold",
         },
-        DepthMarksParameters::table(), make_new<DepthMarks>);
+        DepthMarksParameters::table(), make_new<DepthMarks>, pixels_and_bytes(1));
 }
 
 }  // namespace sheer

@@ -60,9 +60,11 @@ MethodInfo method_depth_peeling() {
             .good_at = "The correct picture for any geometry with only a depth test; checks the exact lists.",
             .bad_at = "Draws the whole scene as often as there are layers in the deepest pixel.",
             .memory = "84 bytes per pixel",
+            .passes = "1 and a full-screen one for each layer, and one more",
+            .needs = "float targets; occlusion queries",
             .needs_sorting = false,
         },
-        NoParameters::table(), make_new<DepthPeeling>);
+        NoParameters::table(), make_new<DepthPeeling>, pixels_and_bytes(0, 84));
 }
 
 }  // namespace sheer

@@ -159,9 +159,11 @@ MethodInfo method_dual_depth_peeling() {
             .good_at = "The correct picture for any geometry, in half as many passes as depth peeling: N / 2 + 1.",
             .bad_at = "Draws the whole scene once for every two layers of the deepest pixel.",
             .memory = "80 bytes per pixel",
+            .passes = "1 and a full-screen one for every two layers, and one more",
+            .needs = "float targets with the blend equation MAX; occlusion queries",
             .needs_sorting = false,
         },
-        NoParameters::table(), make_new<DualDepthPeeling>);
+        NoParameters::table(), make_new<DualDepthPeeling>, pixels_and_bytes(0, 80));
 }
 
 }  // namespace sheer

@@ -261,9 +261,16 @@ MethodInfo method_exact() {
             .good_at = "The correct picture for any geometry, including intersecting primitives.",
             .bad_at = "Memory and time grow with every fragment.",
             .memory = "16 bytes per pixel and 28 bytes per fragment of a tile; 32 bytes per pixel in the sorted form",
+            .passes =
+                "2 and 2 full-screen ones for each tile of the picture; 1 and a full-screen one in the sorted form",
+            .needs = "storage buffers and atomics in fragment shaders",
             .needs_sorting = false,
         },
-        ExactParameters::table(), make_exact, draws_sorted);
+        ExactParameters::table(), make_exact,
+        [](const ExactParameters& parameters, int) -> std::optional<double> {
+            return parameters.form == ExactParameters::Form::sorted ? std::optional(32.0) : std::nullopt;
+        },
+        draws_sorted);
 }
 
 }  // namespace sheer

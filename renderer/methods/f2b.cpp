@@ -18,8 +18,9 @@ MethodInfo method_f2b() {
             .good_at = "The same picture as B2F; cheaper blend factors; the base of every early-discard method.",
             .bad_at = "One more texture, a clear and a full-screen pass, which do not pay below about 16 quads.",
             .memory = "one pixel of the image format",
+            .passes = "1, and a full-screen one",
         },
-        AlphaForm::table(), make_new<FrontToBack>);
+        AlphaForm::table(), make_new<FrontToBack>, pixels_and_bytes(1));
 }
 
 }  // namespace sheer

@@ -20,11 +20,15 @@ MethodInfo method_f2bd() {
             .bad_at =
                 "Few layers or cheap shading; still starts a shader for every fragment; feedback needs a barrier.",
             .memory = "one pixel of the image format, and a quarter of it more with a separate alpha target",
+            .passes = "1, and a full-screen one",
+            .needs = "texture barriers or framebuffer fetch",
             .saturation_parameter = "threshold",
         },
-        DiscardingParameters::table(), [](const MethodSetup& setup, const DiscardingParameters& parameters) {
+        DiscardingParameters::table(),
+        [](const MethodSetup& setup, const DiscardingParameters& parameters) {
             return std::make_unique<DiscardingBlending>(setup, parameters, 1.0f);
-        });
+        },
+        discarding_bytes_per_px);
 }
 
 }  // namespace sheer

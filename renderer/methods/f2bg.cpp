@@ -279,9 +279,11 @@ MethodInfo method_f2bg() {
             .bad_at = "Few layers, where the hardware's rasterizer is quicker; large triangles in many tiles; GLSL "
                       "that takes derivatives.",
             .memory = "32 bytes per pixel; 240 bytes per triangle and a bit per triangle and tile, of a batch",
+            .passes = "a full-screen one for each batch of triangles, and one more",
+            .needs = "compute shaders, storage buffers, texture buffers",
             .saturation_parameter = "threshold",
         },
-        F2bgParameters::table(), make_new<Gathering>);
+        F2bgParameters::table(), make_new<Gathering>, bytes_by_scene);
 }
 
 }  // namespace sheer

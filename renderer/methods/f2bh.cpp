@@ -295,9 +295,11 @@ MethodInfo method_f2bh() {
             .bad_at = "Scenes that never saturate pay for the marks; few layers or cheap shading; feedback needs a "
                       "barrier per batch.",
             .memory = "one pixel of the image format, 12 bytes per tile and 4 per primitive",
+            .passes = "1, and a full-screen one; a mark over the tiles after each batch",
+            .needs = "texture barriers",
             .saturation_parameter = "threshold",
         },
-        F2bhParameters::table(), make_new<ClosingTiles>);
+        F2bhParameters::table(), make_new<ClosingTiles>, bytes_by_scene);
 }
 
 }  // namespace sheer

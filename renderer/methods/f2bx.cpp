@@ -18,13 +18,16 @@ MethodInfo method_f2bx() {
             .good_at = "Showing how much of a frame's time is shading.",
             .bad_at = "Its picture is black: it is for measuring, not for drawing.",
             .memory = "one pixel of the image format, and a quarter of it more with a separate alpha target",
+            .passes = "1, and a full-screen one",
+            .needs = "texture barriers or framebuffer fetch",
             .saturation_parameter = "threshold",
             .no_metrics_reason = "f2bx discards every transparent fragment by design; only its time is meaningful",
         },
         DiscardingParameters::table().with_min("threshold", 0.001),
         [](const MethodSetup& setup, const DiscardingParameters& parameters) {
             return std::make_unique<DiscardingBlending>(setup, parameters, 0.0f);
-        });
+        },
+        discarding_bytes_per_px);
 }
 
 }  // namespace sheer

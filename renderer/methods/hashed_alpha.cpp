@@ -48,6 +48,9 @@ class HashedAlpha : public OpaqueFirst {
         if (m_frames > 1) m_mean.emplace(setup.gl, setup.target);
     }
 
+    /// Over several frames, a mean that moves on by one. A single one keeps its thresholds, as in the paper.
+    void take_noise_of(int number) override { m_first = m_mean ? static_cast<unsigned>(number) : 0; }
+
     void render(gl::FrameTimer& timer) override {
         if (!m_mean) return draw(timer, 0);
         m_mean->clear();
@@ -75,12 +78,12 @@ class HashedAlpha : public OpaqueFirst {
         const auto pass = timer.pass("transparent", gl::Phase::transparent);
         Pass drawing = begin();
         drawing.depth_test(GL_LEQUAL);
-        m_program.set("u_seed", m_seed + static_cast<unsigned>(frame));
+        m_program.set("u_seed", m_seed + m_first + static_cast<unsigned>(frame));
         m_scene.draw_transparent(m_program, Order::submission);
     }
 
     int m_frames;
-    unsigned m_seed;
+    unsigned m_seed, m_first = 0;
     gl::Program m_program;
     std::optional<FrameMean> m_mean;
 };
@@ -99,9 +102,13 @@ MethodInfo method_hashed_alpha() {
             .good_at = "Needs no sorting, no blending and no memory; distant foliage keeps its density.",
             .bad_at = "Visible grain; with the paper's hash, layers in one grain hide each other completely.",
             .memory = "0 bytes per pixel; 16 for several frames",
+            .passes = "1 for each of its frames",
             .needs_sorting = false,
         },
-        HashedAlphaParameters::table(), make_new<HashedAlpha>);
+        HashedAlphaParameters::table(), make_new<HashedAlpha>,
+        [](const HashedAlphaParameters& parameters, int) -> std::optional<double> {
+            return parameters.frames > 1 ? 16 : 0;
+        });
 }
 
 }  // namespace sheer

@@ -110,9 +110,13 @@ MethodInfo method_mboit() {
                 "Where moments do not suffice, layers show through each other, and with overestimation above 0 through "
                 "opaque ones; the second pass computes much for each fragment.",
             .memory = "40 bytes per pixel, 56 with 6 or 8 moments",
+            .passes = "2, and a full-screen one",
+            .needs = "float targets with blending",
             .needs_sorting = false,
         },
-        MboitParameters::table(), make_new<Mboit>);
+        MboitParameters::table(), make_new<Mboit>, [](const MboitParameters& parameters, int) -> std::optional<double> {
+            return parameters.moments > 4 ? 56 : 40;
+        });
 }
 
 }  // namespace sheer

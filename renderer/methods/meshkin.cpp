@@ -159,9 +159,14 @@ MethodInfo method_meshkin() {
                 "Alphas over about 0.3: four layers of alpha 1 are off by up to three times the background. The full "
                 "variant is derived for four layers and wrong for one or two: one layer loses the background.",
             .memory = "8 bytes per pixel, 16 with rgba32f; 8 more in the full variant",
+            .passes = "1, or 2 in the full variant, and a full-screen one",
+            .needs = "float targets with blending",
             .needs_sorting = false,
         },
-        MeshkinParameters::table(), make_new<Meshkin>);
+        MeshkinParameters::table(), make_new<Meshkin>,
+        [](const MeshkinParameters& parameters, int pixel_bytes) -> std::optional<double> {
+            return (pixel_bytes == 16 ? 16 : 8) + (parameters.variant == MeshkinParameters::Variant::full ? 8 : 0);
+        });
 }
 
 }  // namespace sheer

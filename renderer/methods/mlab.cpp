@@ -28,6 +28,10 @@ struct MlabParameters {
     }
 };
 
+int depth_textures(const MlabParameters& parameters) {
+    return (parameters.nodes + depths_per_texture - 1) / depths_per_texture;
+}
+
 class Mlab : public OpaqueFirst {
   public:
     Mlab(const MethodSetup& setup, const MlabParameters& parameters)
@@ -36,8 +40,7 @@ class Mlab : public OpaqueFirst {
           m_insert(make_insert(setup, parameters)),
           m_composite(setup.gl, "mlab: composite", gl::shader_file("methods/mlab_composite.glsl"), prolog(parameters)) {
         std::vector<GLuint> colors;
-        const int depth_textures = (parameters.nodes + depths_per_texture - 1) / depths_per_texture;
-        for (int i = 0; i < parameters.nodes + depth_textures; ++i) {
+        for (int i = 0; i < parameters.nodes + depth_textures(parameters); ++i) {
             const bool is_node = i < parameters.nodes;
             m_textures.push_back(
                 m_target.make_texture(is_node ? "mlab: node" : "mlab: depths",
@@ -142,9 +145,14 @@ MethodInfo method_mlab() {
                 "One pass in bounded memory; exact for as many layers as nodes, for intersecting primitives too.",
             .bad_at = "With more layers the picture depends on the order of submission; needs framebuffer fetch.",
             .memory = "8 bytes per pixel and node, 16 with rgba32f; 16 per pixel for every four depths",
+            .passes = "1, and a full-screen one",
+            .needs = "framebuffer fetch",
             .needs_sorting = false,
         },
-        MlabParameters::table(), make_new<Mlab>);
+        MlabParameters::table(), make_new<Mlab>,
+        [](const MlabParameters& parameters, int pixel_bytes) -> std::optional<double> {
+            return parameters.nodes * (pixel_bytes == 16 ? 16 : 8) + 16 * depth_textures(parameters);
+        });
 }
 
 }  // namespace sheer

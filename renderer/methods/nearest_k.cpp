@@ -185,9 +185,14 @@ MethodInfo method_nearest_k() {
                 "What is behind the k nearest is lost or blurred; transmittances have 8 bits; two passes over the "
                 "scene.",
             .memory = "4 k + 16 bytes per pixel, 20 more if the rest is not dropped",
+            .passes = "2, and a full-screen one",
+            .needs = "storage buffers and atomics in fragment shaders",
             .needs_sorting = false,
         },
-        NearestKParameters::table(), make_new<NearestK>);
+        NearestKParameters::table(), make_new<NearestK>,
+        [](const NearestKParameters& parameters, int) -> std::optional<double> {
+            return 4 * parameters.k + (parameters.rest == NearestKParameters::Rest::dropped ? 16 : 36);
+        });
 }
 
 }  // namespace sheer

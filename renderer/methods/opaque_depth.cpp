@@ -80,6 +80,18 @@ GLenum depth_format(Variant variant, int depth_bits) {
     throw std::logic_error("unknown variant");
 }
 
+/// OpenGL has no 16-bit depth with a stencil, and pads 24 bits without one.
+int depth_bytes(const OpaqueDepthParameters& parameters) {
+    switch (depth_format(parameters.variant, parameters.depth_bits)) {
+        case GL_DEPTH_COMPONENT16:
+            return 2;
+        case GL_DEPTH32F_STENCIL8:
+            return 8;
+        default:
+            return 4;
+    }
+}
+
 /// Steps of depth between 0 and 1: as many floats as there are, or a power of two that the fixed-point
 /// format can distinguish: a GPU may round any other quotient to its neighbour.
 constexpr int float_steps = 0x3f800000;  // 1.0f in bits
@@ -316,8 +328,13 @@ MethodInfo method_opaque_depth() {
                 "Opacity that builds up from translucent layers closes no pixel (except in target_alpha); no shading "
                 "is saved if the shader writes depth.",
             .memory = "one pixel of the image format and 2 to 8 bytes of depth and stencil",
+            .passes = "1, or 2 in two_pass, and a full-screen one; another after each batch",
+            .needs = "a depth that the shader writes, stencil",
         },
-        OpaqueDepthParameters::table(), make_new<OpaqueDepth>);
+        OpaqueDepthParameters::table(), make_new<OpaqueDepth>,
+        [](const OpaqueDepthParameters& parameters, int pixel_bytes) -> std::optional<double> {
+            return pixel_bytes + depth_bytes(parameters);
+        });
 }
 
 }  // namespace sheer

@@ -68,9 +68,12 @@ MethodInfo method_phenomenological() {
                 "Far layers show through opaque near ones. With transmission above 0 the picture is another one than "
                 "alpha blending gives, and its error against it says nothing about glass.",
             .memory = "16 bytes per pixel, 32 with rgba32f",
+            .passes = "1, and a full-screen one",
+            .needs = "half-float targets, each with its own blend factors",
             .needs_sorting = false,
         },
-        PhenomenologicalParameters::table(), make_new<Phenomenological>);
+        PhenomenologicalParameters::table(), make_new<Phenomenological>,
+        [](const auto&, int pixel_bytes) -> std::optional<double> { return pixel_bytes == 16 ? 32 : 16; });
 }
 
 }  // namespace sheer

@@ -57,9 +57,12 @@ MethodInfo method_premultiplied_additive() {
                 "Fragments do not hide each other, so many of them turn white. With coverage 0 nothing darkens the "
                 "background.",
             .memory = "10 bytes per pixel, 20 with rgba32f",
+            .passes = "1, and a full-screen one",
+            .needs = "half-float targets, each with its own blend factors",
             .needs_sorting = false,
         },
-        PremultipliedAdditiveParameters::table(), make_new<PremultipliedAdditive>);
+        PremultipliedAdditiveParameters::table(), make_new<PremultipliedAdditive>,
+        [](const auto&, int pixel_bytes) -> std::optional<double> { return pixel_bytes == 16 ? 20 : 10; });
 }
 
 }  // namespace sheer

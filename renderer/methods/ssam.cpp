@@ -229,9 +229,15 @@ MethodInfo method_ssam() {
                 "Foliage: soft edges and intersections without sorting; one blend per pixel, whatever the overdraw.",
             .bad_at = "Glass and smoke: only the nearest color shows, however faint; halos of the clear color.",
             .memory = "two pixels of the image format; with opaque_msaa 2 also the samples, color and depth",
+            .passes = "2, and 2 full-screen ones; 1 more if something is drawn after the foliage",
+            .needs = "the blend equation MAX",
             .needs_sorting = false,
         },
         SsamParameters::table(), make_new<ScreenSpaceAlphaMask>,
+        [](const SsamParameters& parameters, int pixel_bytes) -> std::optional<double> {
+            // How many samples 2 stands for is the device's choice.
+            return parameters.opaque_msaa > 1 ? std::nullopt : std::optional(2.0 * pixel_bytes);
+        },
         [](const Scene&, const SsamParameters& parameters) { return parameters.drawn_after > 0; });
 }
 

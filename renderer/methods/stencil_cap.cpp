@@ -32,8 +32,14 @@ MethodInfo method_stencil_cap() {
                       "min_alpha "
                       "0 and "
                       "opaque geometry or zcull 2 bytes more",
+            .passes = "1, and a full-screen one; another to count fragments or for zcull",
+            .needs = "stencil",
         },
-        StencilCapParameters::table(), make_new<StencilCap>);
+        StencilCapParameters::table(), make_new<StencilCap>,
+        [](const StencilCapParameters& parameters, int pixel_bytes) -> std::optional<double> {
+            const bool counts = parameters.zcull && parameters.min_alpha == 0;
+            return 3.5 * pixel_bytes + 8 + (parameters.zcull ? 0.5 : 0) + (counts ? 2 : 0);
+        });
 }
 
 }  // namespace sheer

@@ -106,6 +106,8 @@ class Stochastic : public OpaqueFirst {
         composite();
     }
 
+    void take_noise_of(int number) override { m_first_pass = static_cast<unsigned>(number * m_passes); }
+
     std::vector<PixelFact> explain(const PixelTrace& trace) const override {
         if (m_by_depth) return {};
         nlohmann::json samples = nlohmann::json::array();
@@ -135,7 +137,7 @@ class Stochastic : public OpaqueFirst {
         drawing.clear_color(glm::vec4(0));
         drawing.depth_test(GL_LEQUAL);
         if (m_by_depth) drawing.no_color();
-        m_sample.set("u_seed", m_seed * 65537u + static_cast<unsigned>(number));
+        m_sample.set("u_seed", m_seed * 65537u + m_first_pass + static_cast<unsigned>(number));
         m_scene.draw_transparent(m_sample, Order::submission);
     }
 
@@ -165,7 +167,7 @@ class Stochastic : public OpaqueFirst {
     }
 
     int m_passes;
-    unsigned m_seed;
+    unsigned m_seed, m_first_pass = 0;
     bool m_corrected, m_by_depth;
     Multisample m_multisample;
     gl::Program m_sample, m_accumulate, m_alpha;
@@ -192,9 +194,15 @@ MethodInfo method_stochastic() {
             .memory =
                 "16 bytes per pixel, and for each sample one pixel of the image format and 4 bytes of depth; 4 more "
                 "per pixel with alpha_correction",
+            .passes = "1 and a full-screen one for each of its passes, 2 with the variant depth; 1 more with "
+                      "alpha_correction; a full-screen one at the end",
+            .needs = "multisampling with sample masks; float targets",
             .needs_sorting = false,
         },
-        StochasticParameters::table(), make_new<Stochastic>);
+        StochasticParameters::table(), make_new<Stochastic>,
+        [](const StochasticParameters& parameters, int pixel_bytes) -> std::optional<double> {
+            return 16 + parameters.samples * (pixel_bytes + 4) + (parameters.alpha_correction ? 4 : 0);
+        });
 }
 
 }  // namespace sheer

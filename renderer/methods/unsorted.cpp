@@ -15,11 +15,14 @@ MethodInfo method_unsorted() {
             .good_at = "No sorting and no extra memory; correct where nothing transparent overlaps.",
             .bad_at = "Overlapping primitives are blended in whatever order they were submitted.",
             .memory = "0 bytes per pixel",
+            .passes = "1",
             .needs_sorting = false,
         },
-        NoParameters::table(), [](const MethodSetup& setup, const NoParameters&) {
+        NoParameters::table(),
+        [](const MethodSetup& setup, const NoParameters&) {
             return std::make_unique<ClassicalBlending>(setup, Order::submission);
-        });
+        },
+        pixels_and_bytes(0));
 }
 
 }  // namespace sheer

@@ -73,9 +73,14 @@ MethodInfo method_wavelet() {
                 "Layers in one cell of depth show through each other, even opaque ones; two passes over the scene "
                 "and much memory.",
             .memory = "20 bytes per pixel and 16 for every four coefficients: 84 at rank 3",
+            .passes = "2, and a full-screen one",
+            .needs = "float targets with blending",
             .needs_sorting = false,
         },
-        WaveletParameters::table(), make_new<Wavelet>);
+        WaveletParameters::table(), make_new<Wavelet>,
+        [](const WaveletParameters& parameters, int) -> std::optional<double> {
+            return 20 + 4 * std::max(4, 2 << parameters.rank);
+        });
 }
 
 }  // namespace sheer

@@ -107,9 +107,12 @@ MethodInfo method_wboit() {
                       "in 16-bit "
                       "floats overflow to black from about 22 near layers of alpha 1 on: lower greatest_weight.",
             .memory = "10 bytes per pixel, 20 with rgba32f",
+            .passes = "1, and a full-screen one",
+            .needs = "half-float targets, each with its own blend factors",
             .needs_sorting = false,
         },
-        WboitParameters::table(), make_new<Wboit>);
+        WboitParameters::table(), make_new<Wboit>,
+        [](const auto&, int pixel_bytes) -> std::optional<double> { return pixel_bytes == 16 ? 20 : 10; });
 }
 
 }  // namespace sheer

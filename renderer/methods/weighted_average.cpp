@@ -43,9 +43,12 @@ MethodInfo method_weighted_average() {
                 "Near and far layers count alike, so a far one shows through an opaque near one. Where alphas differ, "
                 "so does the transmittance: it is that of their average.",
             .memory = "10 bytes per pixel, 20 with rgba32f",
+            .passes = "1, and a full-screen one",
+            .needs = "half-float targets, each with its own blend factors",
             .needs_sorting = false,
         },
-        NoParameters::table(), make_new<WeightedAverage>);
+        NoParameters::table(), make_new<WeightedAverage>,
+        [](const auto&, int pixel_bytes) -> std::optional<double> { return pixel_bytes == 16 ? 20 : 10; });
 }
 
 }  // namespace sheer

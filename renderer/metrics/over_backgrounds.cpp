@@ -42,9 +42,9 @@ nlohmann::json nothing(const std::string& reason) {
 }
 
 MetricValue compute_over_backgrounds(const ImagePair& pair) {
-    if (!pair.reference_over || !pair.test_over)
+    if (!pair.more.reference_over || !pair.more.test_over)
         return {nothing("the pictures over black and white were not rendered"), std::nullopt};
-    const std::array<Named, 3> all = errors_over(*pair.reference_over, *pair.test_over);
+    const std::array<Named, 3> all = errors_over(*pair.more.reference_over, *pair.more.test_over);
     nlohmann::json value = nlohmann::json::object();
     const Named* worst = all.data();
     double greatest = 0;

@@ -26,7 +26,13 @@ struct Candidate {
     double time_ms, error;
     std::optional<report::Speedup> speedup;
     std::vector<double> samples;
+    std::optional<std::int64_t> memory_bytes;
 
+    std::string shown_memory() const { return number_text(static_cast<double>(*memory_bytes) / (1 << 20), 2); }
+    bool needs_less_than(const Candidate& other) const {
+        return memory_bytes && other.memory_bytes && *memory_bytes < *other.memory_bytes &&
+               shown_memory() != other.shown_memory();
+    }
     std::string shown_error() const { return number_text(error, 2); }
     bool is_nearer_than(const Candidate& other) const {
         return error < other.error && shown_error() != other.shown_error();
@@ -52,7 +58,8 @@ Candidates candidates(const report::Run& run) {
     for (const report::Result& result : run.results) {
         const std::optional<double> error = quantity ? quantity->value(result) : std::nullopt;
         if (!result.timing || !error) continue;
-        all.push_back({result.label, result.timing->median, *error, result.speedup.value, result.timing->samples});
+        all.push_back({result.label, result.timing->median, *error, result.speedup.value, result.timing->samples,
+                       result.memory_bytes});
     }
     std::ranges::stable_sort(all, {}, &Candidate::time_ms);
     return all;
@@ -82,11 +89,14 @@ class Race {
 
     /// "" if the other one does not dominate it.
     std::string why_dominated(const Candidate& one, const Candidate& by) const {
-        if (is_faster(one, by) || one.is_nearer_than(by)) return "";
+        if (is_faster(one, by) || one.is_nearer_than(by) || one.needs_less_than(by)) return "";
         if (is_faster(by, one))
             return fmt::format("{} is resolved faster and not farther from the reference", by.label);
         if (by.is_nearer_than(one))
             return fmt::format("{} is nearer to the reference, and {} is not resolved faster", by.label, one.label);
+        if (by.needs_less_than(one))
+            return fmt::format("{} needs less memory, and {} is neither resolved faster nor nearer to the reference",
+                               by.label, one.label);
         return "";
     }
 
@@ -130,6 +140,18 @@ Winner closest_of(const std::vector<const Candidate*>& some) {
     return winner;
 }
 
+/// Amounts tie if their shown digits are equal.
+Winner least_memory_of(const std::vector<const Candidate*>& some) {
+    Winner winner;
+    for (const Candidate* one : some)
+        if (!winner.method || one->needs_less_than(*winner.method)) winner.method = one;
+    for (const Candidate* one : some)
+        if (one != winner.method && one->shown_memory() == winner.method->shown_memory())
+            winner.tied.push_back(one->label);
+    winner.is_resolved = true;
+    return winner;
+}
+
 /// Sentences of neighboring limits with the same answer are merged into that of the strictest limit.
 class Sentences {
   public:
@@ -162,6 +184,9 @@ class FrontierWriter {
         for (const double limit : error_limits) write_fastest(limit, !too_few);
         m_sentences.begin_list();
         for (const double speed : least_speeds) write_closest(speed, !too_few);
+        m_sentences.begin_list();
+        if (std::ranges::all_of(m_all, [](const Candidate& one) { return one.memory_bytes.has_value(); }))
+            for (const double limit : error_limits) write_least_memory(limit);
         m_frontier.error = error_metric;
         m_frontier.fastest = fastest();
         m_frontier.sentences = m_sentences.all();
@@ -237,6 +262,20 @@ class FrontierWriter {
                 ? fmt::format("Closest to the reference of {} and what is resolved faster: ", m_race.baseline())
                 : fmt::format("Closest of what is resolved over {:g} times as fast as {}: ", speed, m_race.baseline()),
             winner.method->shown() + with);
+    }
+
+    void write_least_memory(double limit) {
+        const auto some = those([&](const Candidate& one) { return one.error <= limit; });
+        if (some.empty()) return;
+        const Winner winner = least_memory_of(some);
+        const std::int64_t bytes = *winner.method->memory_bytes;
+        m_frontier.least_memory_under.push_back({winner.told(), limit, bytes});
+        if (some.size() == 1) return;
+        const std::string with =
+            winner.tied.empty() ? "." : fmt::format("; as little: {}.", fmt::join(winner.tied, ", "));
+        const std::string amount = bytes == 0 ? "none beside the picture" : winner.method->shown_memory() + " MiB";
+        m_sentences.add(fmt::format("Least memory under a mean FLIP error of {}: ", limit),
+                        fmt::format("{}, {}{}", winner.method->label, amount, with));
     }
 
     static std::string ties(const Winner& winner) {

@@ -127,15 +127,27 @@ const Description<report::ClosestWithin>& description_of() {
 }
 
 template <>
+const Description<report::LeastMemoryUnder>& description_of() {
+    static const auto description =
+        Description<report::LeastMemoryUnder>("LeastMemoryUnder", "the method with the least memory under an error")
+            .with(description_of<report::Winner>())
+            .member(&report::LeastMemoryUnder::error, "error", "greatest mean FLIP error")
+            .member(&report::LeastMemoryUnder::memory_bytes, "memory_bytes", "what it needs");
+    return description;
+}
+
+template <>
 const Description<report::Frontier>& description_of() {
     static const auto description =
-        Description<report::Frontier>("Frontier", "the methods that no other one beats in both time and error")
+        Description<report::Frontier>("Frontier", "the methods that no other one beats in time, error and memory")
             .member(&report::Frontier::error, "error", "the metric used as the error")
             .member(&report::Frontier::fastest, "fastest", "labels of the methods that may be called fastest")
             .member(&report::Frontier::methods, "methods", "labels of those that none beats, by increasing time")
             .member(&report::Frontier::dominated, "dominated", "the others")
             .member(&report::Frontier::fastest_under, "fastest_under", "")
             .member(&report::Frontier::closest_within, "closest_within", "")
+            .maybe(&report::Frontier::least_memory_under, "least_memory_under",
+                   "absent if the memory of a method is not known")
             .member(&report::Frontier::sentences, "sentences", "the same in words");
     return description;
 }

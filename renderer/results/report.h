@@ -157,12 +157,20 @@ struct Dominated {
 struct Winner {
     std::optional<std::string> method;
     std::vector<std::string> tied;
+
+    bool operator==(const Winner&) const = default;
 };
 struct FastestUnder : Winner {
     double error = 0;
 };
 struct ClosestWithin : Winner {
     double speed = 1;
+};
+struct LeastMemoryUnder : Winner {
+    double error = 0;
+    std::int64_t memory_bytes = 0;
+
+    bool operator==(const LeastMemoryUnder&) const = default;
 };
 
 struct Frontier {
@@ -171,6 +179,7 @@ struct Frontier {
     std::vector<Dominated> dominated;
     std::vector<FastestUnder> fastest_under;
     std::vector<ClosestWithin> closest_within;
+    std::vector<LeastMemoryUnder> least_memory_under;
     std::vector<std::string> sentences;
 };
 
@@ -411,6 +420,8 @@ template <>
 const Description<report::FastestUnder>& description_of();
 template <>
 const Description<report::ClosestWithin>& description_of();
+template <>
+const Description<report::LeastMemoryUnder>& description_of();
 template <>
 const Description<report::Frontier>& description_of();
 template <>

@@ -10,6 +10,7 @@
 
 #include "renderer/core/errors.h"
 #include "renderer/glsl/own_shading.h"
+#include "renderer/scene/alpha_coverage.h"
 
 namespace sheer {
 
@@ -229,6 +230,7 @@ void Scene::make_textures(const Geometry& geometry, const nlohmann::json& textur
     m_textures = make_repeating_array("scene textures");
     const nlohmann::json& image = texture.at("image");
     const auto size_px = texture.at("size").get<int>();
+    const auto coverage_alpha = texture.at("coverage_alpha").get<double>();
     const auto file_of = [&](int layer) {
         const nlohmann::json& name = image.is_array() ? image[static_cast<std::size_t>(layer)] : image;
         const auto found = geometry.textures.find({name.get<std::string>(), size_px});
@@ -245,10 +247,15 @@ void Scene::make_textures(const Geometry& geometry, const nlohmann::json& textur
         const auto name = (image.is_array() ? image[static_cast<std::size_t>(layer)] : image).get<std::string>();
         const Picture* file = file_of(layer);
         if (file == nullptr) {
-            fill_painted_layer(layer, make_texture(name, size_px, layer));
+            std::vector<TextureLevel> painted = make_texture(name, size_px, layer);
+            if (coverage_alpha > 0) keep_alpha_coverage(painted, coverage_alpha);
+            fill_painted_layer(layer, painted);
             continue;
         }
-        if (name != last) levels = make_mipmaps(file->image);
+        if (name != last) {
+            levels = make_mipmaps(file->image);
+            if (coverage_alpha > 0) keep_alpha_coverage(levels, coverage_alpha);
+        }
         last = name;
         fill_layer(m_textures, layer, 0, levels);
     }

@@ -51,7 +51,11 @@ std::vector<Param> SceneInfo::look_parameters() const {
                           {Param::asset("image", "their picture: one name for all four, or one for each", "texture",
                                         default_texture, {"leaf", "smoke"})
                                .or_each_of(texture_count),
-                           Param::integer("size", "width and height", "px", 1024, 1, 4096)})};
+                           Param::integer("size", "width and height", "px", 1024, 1, 4096),
+                           Param::number("coverage_alpha",
+                                         "mipmaps keep the share of the picture with at least this alpha, so that "
+                                         "leaves do not dissolve in the distance under an alpha test; 0: plain means",
+                                         "", 0, 0, 1)})};
 }
 
 Geometry build_geometry(const nlohmann::json& scene, const ImageSpec& image, AssetReader& assets) {

@@ -32,6 +32,16 @@ MetricField listed_field(const MetricInfo& metric, const sheer::MetricField& fie
             .column = column_of(field.column)};
 }
 
+/// With the default parameters.
+std::optional<BytesPerPixel> bytes_per_px(const MethodInfo& method) {
+    std::vector<FieldError> none;
+    const json defaults = read_fields(json::object(), "", method.parameters, none);
+    const auto rgba8 = method.bytes_per_px(defaults, 4), rgba16f = method.bytes_per_px(defaults, 8),
+               rgba32f = method.bytes_per_px(defaults, 16);
+    if (!rgba8 || !rgba16f || !rgba32f) return std::nullopt;
+    return BytesPerPixel{*rgba8, *rgba16f, *rgba32f};
+}
+
 }  // namespace
 
 std::vector<Method> methods() {
@@ -45,6 +55,9 @@ std::vector<Method> methods() {
                        .good_at = method.good_at,
                        .bad_at = method.bad_at,
                        .memory = method.memory,
+                       .passes = method.passes,
+                       .needs = method.needs,
+                       .bytes_per_px = bytes_per_px(method),
                        .needs_sorting = method.needs_sorting,
                        .parameters = fields_of(method.parameters),
                        .no_metrics_reason = method.no_metrics_reason});
@@ -114,6 +127,17 @@ json describe_suites() {
 }
 
 template <>
+const Description<catalog::BytesPerPixel>& description_of() {
+    using catalog::BytesPerPixel;
+    static const auto description =
+        Description<BytesPerPixel>("BytesPerPixel", "memory for each pixel, by the format of the picture")
+            .member(&BytesPerPixel::rgba8, "rgba8", "")
+            .member(&BytesPerPixel::rgba16f, "rgba16f", "")
+            .member(&BytesPerPixel::rgba32f, "rgba32f", "");
+    return description;
+}
+
+template <>
 const Description<catalog::Method>& description_of() {
     using catalog::Method;
     static const auto description =
@@ -126,6 +150,11 @@ const Description<catalog::Method>& description_of() {
             .member(&Method::good_at, "good_at", "")
             .member(&Method::bad_at, "bad_at", "")
             .member(&Method::memory, "memory", "for each pixel, in addition to the picture into which it renders")
+            .maybe(&Method::bytes_per_px, "bytes_per_px",
+                   "the same by its formula with the default parameters and without opaque geometry; absent if it "
+                   "depends on the scene")
+            .member(&Method::passes, "passes", "how often it draws the transparent geometry, and full-screen passes")
+            .member(&Method::needs, "needs", "of the device, beside blending and a depth test; \"\" if nothing")
             .member(&Method::needs_sorting, "needs_sorting",
                     "false if the order of submission does not matter, or if the method draws in that order")
             .member(&Method::parameters, "parameters", "")

@@ -14,8 +14,14 @@ namespace sheer::catalog {
 // The available choices, as listed by `GET /methods`, similar calls, and `sheer methods --json`. The descriptions say
 // what each member means.
 
+/// Of a target in each of the formats.
+struct BytesPerPixel {
+    double rgba8 = 0, rgba16f = 0, rgba32f = 0;
+};
+
 struct Method {
-    std::string id, name, kind, summary, paper, good_at, bad_at, memory;
+    std::string id, name, kind, summary, paper, good_at, bad_at, memory, passes, needs;
+    std::optional<BytesPerPixel> bytes_per_px;
     bool needs_sorting = true;
     std::vector<Field> parameters;
     std::string no_metrics_reason;

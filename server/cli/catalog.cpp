@@ -33,7 +33,8 @@ std::string parameter_line(const json& parameter, int indent) {
 std::string entry(const json& info, const std::vector<std::pair<std::string, std::string>>& captions) {
     std::string text = fmt::format("{}  {}\n", info["id"].get<std::string>(), info["summary"].get<std::string>());
     for (const auto& [caption, key] : captions)
-        text += fmt::format("    {:<9}{}\n", caption, info[key].get<std::string>());
+        if (const auto value = info[key].get<std::string>(); !value.empty())
+            text += fmt::format("    {:<9}{}\n", caption, value);
     for (const json& parameter : info.value("parameters", json::array())) text += parameter_line(parameter, 4);
     return text;
 }
@@ -55,12 +56,16 @@ std::string metric_entry(const json& metric) {
 }  // namespace
 
 void add_catalog(CLI::App& app, int& exit_code) {
-    add_list(
-        app, exit_code, "methods", "The methods and their parameters", "f2bd", describe_methods, [](const json& info) {
-            return entry(info,
-                         {{"paper", "paper"}, {"good at", "good_at"}, {"bad at", "bad_at"}, {"memory", "memory"}}) +
-                   "\n";
-        });
+    add_list(app, exit_code, "methods", "The methods and their parameters", "f2bd", describe_methods,
+             [](const json& info) {
+                 return entry(info, {{"paper", "paper"},
+                                     {"good at", "good_at"},
+                                     {"bad at", "bad_at"},
+                                     {"passes", "passes"},
+                                     {"memory", "memory"},
+                                     {"needs", "needs"}}) +
+                        "\n";
+             });
     add_list(app, exit_code, "scenes", "The scenes and their parameters", "quads", describe_scenes,
              [](const json& info) {
                  return entry(info, {{"source", "source"}}) + "\n";

@@ -67,7 +67,8 @@ TEST(LinearMetric, IsNullWithAReasonIfNotFinite) {
 }
 
 json over(const Backdrops& reference, const Backdrops& test) {
-    return compute_metrics(reference.black, test.black, &reference, &test).values["over_backgrounds"];
+    return compute_metrics(reference.black, test.black, {.reference_over = &reference, .test_over = &test})
+        .values["over_backgrounds"];
 }
 
 /// The reference lets nothing through; the method's C is right and its T is 0.25, which black does not show.

@@ -234,7 +234,8 @@ TEST(AllMetrics, DescribeThemselves) {
 
 TEST(AllMetrics, ValuesHaveTheFieldsTheyAnnounce) {
     const Backdrops reference{small_reference(), small_reference()}, test{small_test(), small_test()};
-    const Metrics found = compute_metrics(small_reference(), small_test(), &reference, &test);
+    const Metrics found =
+        compute_metrics(small_reference(), small_test(), {.reference_over = &reference, .test_over = &test});
     EXPECT_EQ(found.values.size(), all_metrics().size());
     for (const MetricInfo& metric : all_metrics()) {
         SCOPED_TRACE(metric.id);

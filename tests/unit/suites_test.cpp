@@ -228,6 +228,44 @@ TEST(Frontier, NamesDominatedMethodsAndTheDominatingOnes) {
     EXPECT_THAT(answer["sentences"][1], HasSubstr("[4.00, 4.00]"));
 }
 
+/// Like b2f but slower; what it gains is memory, or not.
+TEST(Frontier, LeastMemoryIsAnAxisOfItsOwn) {
+    const auto with_memory = [](json result, std::int64_t bytes) {
+        result["memory_bytes"] = bytes;
+        return result;
+    };
+    const json answer = frontier_of(timed_run({with_memory(timed("b2f", at_speed(1), 0.0), 0),
+                                               with_memory(timed("quick", at_speed(4), 0.0), 8 << 20),
+                                               with_memory(timed("slow", at_speed(0.5), 0.0), 4 << 20),
+                                               with_memory(timed("greedy", at_speed(4), 0.0), 16 << 20),
+                                               with_memory(timed("rough", at_speed(4), 0.03), 1 << 20)}),
+                                    "b2f");
+    EXPECT_EQ(answer["methods"], json({"quick", "rough", "b2f"}));
+    ASSERT_EQ(answer["dominated"].size(), 2u);
+    EXPECT_EQ(answer["dominated"][0],
+              json({{"method", "greedy"},
+                    {"by", "quick"},
+                    {"reason",
+                     "quick needs less memory, and greedy is neither resolved faster nor nearer to the reference"}}));
+    EXPECT_EQ(answer["dominated"][1]["method"], "slow");
+    EXPECT_EQ(answer["dominated"][1]["by"], "b2f");
+    EXPECT_EQ(answer["least_memory_under"],
+              json::array({{{"error", 0.001}, {"method", "b2f"}, {"tied", json::array()}, {"memory_bytes", 0}},
+                           {{"error", 0.01}, {"method", "b2f"}, {"tied", json::array()}, {"memory_bytes", 0}},
+                           {{"error", 0.05}, {"method", "b2f"}, {"tied", json::array()}, {"memory_bytes", 0}}}));
+    EXPECT_EQ(answer["sentences"].back(),
+              "Least memory under a mean FLIP error of 0.001: b2f, none beside the picture.");
+
+    const json two = frontier_of(timed_run({with_memory(timed("b2f", at_speed(1), 0.002), 3 << 20),
+                                            with_memory(timed("x", at_speed(1), 0.002), (3 << 20) + 100),
+                                            with_memory(timed("y", at_speed(1), 0.02), 1 << 20)}),
+                                 "b2f");
+    EXPECT_EQ(two["least_memory_under"][0],
+              json({{"error", 0.01}, {"method", "b2f"}, {"tied", {"x"}}, {"memory_bytes", 3 << 20}}));
+    EXPECT_EQ(two["least_memory_under"][1]["method"], "y");
+    EXPECT_EQ(two["sentences"].back(), "Least memory under a mean FLIP error of 0.05: y, 1.0 MiB.");
+}
+
 TEST(Frontier, CallsOnlyResolvedMethodsFastest) {
     const json answer = frontier_of(timed_run({timed("b2f", at_speed(1), 0.002), timed("f2b", as_fast, 0.004)}), "b2f");
     EXPECT_TRUE(answer["fastest"].empty());

@@ -8,7 +8,7 @@ namespace sheer::litmus {
 
 namespace {
 
-struct MaskParameters {
+struct SampleMasks {
     int samples, passes;
     bool stratified;
 };
@@ -50,8 +50,8 @@ Color stratified_variance(const Stack& stack, int samples) {
 }
 
 Formula variance_of_mean(const nlohmann::json& parameters) {
-    const MaskParameters of = {parameters.value("samples", 4), parameters.value("passes", 1),
-                               parameters.value("masks", "stratified") == "stratified"};
+    const SampleMasks of = {parameters.value("samples", 4), parameters.value("passes", 1),
+                            parameters.value("masks", "stratified") == "stratified"};
     return [of](const Stack& stack) {
         Color variance = of.stratified ? stratified_variance(stack, of.samples) : variance_of_sample(stack);
         for (double& channel : variance) channel /= of.stratified ? of.passes : of.samples * of.passes;

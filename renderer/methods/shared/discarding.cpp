@@ -58,6 +58,10 @@ ParamTable<DiscardingParameters> DiscardingParameters::table() {
         .with(AlphaForm::table());
 }
 
+std::optional<double> discarding_bytes_per_px(const DiscardingParameters& parameters, int pixel_bytes) {
+    return (is_separate(parameters) ? 1.25 : 1.0) * pixel_bytes;
+}
+
 DiscardingBlending::DiscardingBlending(const MethodSetup& setup, const DiscardingParameters& parameters,
                                        float initial_transmittance)
     : OpaqueFirst(setup),

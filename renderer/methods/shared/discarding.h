@@ -20,6 +20,9 @@ struct DiscardingParameters : AlphaForm {
     static ParamTable<DiscardingParameters> table();
 };
 
+/// See MethodInfo::bytes_per_px.
+std::optional<double> discarding_bytes_per_px(const DiscardingParameters& parameters, int pixel_bytes);
+
 /// Front-to-back blending in which a fragment reads the remaining transmittance and is discarded if that is under a
 /// threshold: SCCG 2010, sections 2.1 and 2.2.
 class DiscardingBlending : public OpaqueFirst {

@@ -35,6 +35,9 @@ class Method {
     virtual void restart() {}
     /// Whether a frame depends on earlier ones. restart() then forgets them.
     virtual bool keeps_frames() const { return false; }
+    /// The noise of the next frame is that of frame `number` of an animation; 0 is that of a single picture. For
+    /// methods whose noise is the same in all frames, or that have none, there is nothing to do.
+    virtual void take_noise_of(int /*number*/) {}
     /// Textures and buffers that the method needs beside the target.
     virtual std::int64_t memory_bytes() const { return 0; }
     /// An object with what only this method reports; may render frames of its own, which are not timed.
@@ -63,7 +66,7 @@ class OpaqueFirst : public Method {
 };
 
 /// A method describes itself; the file renderer/methods/<id>.cpp ends with `MethodInfo method_<id>()`, which fills in
-/// all but the last three and hands it to describe_method().
+/// all but the last four and hands it to describe_method().
 struct MethodInfo {
     std::string id;
     std::string name;
@@ -73,6 +76,8 @@ struct MethodInfo {
     std::string good_at;
     std::string bad_at;
     std::string memory;         ///< per pixel, beside the target
+    std::string passes;         ///< how often it draws the transparent geometry, and full-screen passes
+    std::string needs;          ///< of the device, beside blending and a depth test; "" if nothing
     bool needs_sorting = true;  ///< false if the order does not matter or is that of submission
     /// The parameter that is the least transmittance with which a pixel still needs fragments; "" if every fragment is
     /// needed.
@@ -84,6 +89,9 @@ struct MethodInfo {
     std::function<std::unique_ptr<Method>(const MethodSetup&, const nlohmann::json& parameters_here)> make;
     /// Whether it draws in depth order, if that depends on the scene and the parameters; otherwise null.
     std::function<bool(const Scene& scene, const nlohmann::json& parameters_here)> sorts_here;
+    /// Method::memory_bytes() per pixel of a target whose pixels have 4, 8 or 16 bytes, but for what a scene with
+    /// opaque geometry needs more; none if it depends on the scene or the device.
+    std::function<std::optional<double>(const nlohmann::json& parameters_here, int pixel_bytes)> bytes_per_px;
 
     bool sorts(const Scene& scene, const nlohmann::json& parameters_here) const {
         return sorts_here ? sorts_here(scene, parameters_here) : needs_sorting;
@@ -102,16 +110,22 @@ struct NoParameters {
 template <typename Parameters>
 using MakeFunction = std::function<std::unique_ptr<Method>(const MethodSetup&, const Parameters&)>;
 template <typename Parameters>
+using BytesFunction = std::function<std::optional<double>(const Parameters&, int pixel_bytes)>;
+template <typename Parameters>
 using SortsFunction = std::function<bool(const Scene&, const Parameters&)>;
 
 /// Adds to `info` what follows from its parameters: their descriptions, and a factory that reads them first.
 template <typename Parameters>
 MethodInfo describe_method(MethodInfo info, const ParamTable<Parameters>& table,
                            const std::type_identity_t<MakeFunction<Parameters>>& make,
+                           const std::type_identity_t<BytesFunction<Parameters>>& bytes_per_px,
                            const std::type_identity_t<SortsFunction<Parameters>>& sorts = nullptr) {
     info.parameters = table.params();
     info.make = [table, make](const MethodSetup& setup, const nlohmann::json& parameters) {
         return make(setup, table.read(parameters));
+    };
+    info.bytes_per_px = [table, bytes_per_px](const nlohmann::json& parameters, int pixel_bytes) {
+        return bytes_per_px(table.read(parameters), pixel_bytes);
     };
     if (sorts)
         info.sorts_here = [table, sorts](const Scene& scene, const nlohmann::json& parameters) {
@@ -125,6 +139,13 @@ template <typename T>
 inline constexpr auto make_new = [](const MethodSetup& setup, const auto& parameters) -> std::unique_ptr<Method> {
     return std::make_unique<T>(setup, parameters);
 };
+
+/// For describe_method(): the memory is that of `pixels` pixels of the target, and of so many bytes.
+inline auto pixels_and_bytes(double pixels, double bytes = 0) {
+    return [=](const auto&, int pixel_bytes) { return std::optional(pixels * pixel_bytes + bytes); };
+}
+/// For describe_method(): the memory depends on the scene.
+inline constexpr auto bytes_by_scene = [](const auto&, int) -> std::optional<double> { return std::nullopt; };
 
 /// Every method, from the generated table.
 const std::vector<MethodInfo>& all_methods();

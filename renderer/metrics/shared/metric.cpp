@@ -55,20 +55,17 @@ std::vector<MetricInfo> in_order(std::vector<MetricInfo> metrics) {
 
 }  // namespace
 
-ImagePair::ImagePair(const Image& reference_image, const Image& test_image, const Backdrops* reference_backdrops,
-                     const Backdrops* test_backdrops, const Image* reference_as_shown)
+ImagePair::ImagePair(const Image& reference_image, const Image& test_image, const MorePictures& more_pictures)
     : reference(checked(reference_image, test_image)),
       test(test_image),
-      reference8(quantize(reference_as_shown ? *reference_as_shown : reference_image)),
+      reference8(quantize(more_pictures.reference_as_shown ? *more_pictures.reference_as_shown : reference_image)),
       test8(quantize(test_image)),
-      reference_over(reference_backdrops),
-      test_over(test_backdrops) {
-    if (reference_as_shown) require_comparable(*reference_as_shown, test);
-    if (reference_over && test_over) {
-        require_comparable(reference, reference_over->black);
-        require_comparable(reference, reference_over->white);
-        require_comparable(reference, test_over->black);
-        require_comparable(reference, test_over->white);
+      more(more_pictures) {
+    if (more.reference_as_shown) require_comparable(*more.reference_as_shown, test);
+    for (const Backdrops* over : {more.reference_over, more.test_over}) {
+        if (!over) continue;
+        require_comparable(reference, over->black);
+        require_comparable(reference, over->white);
     }
     punish_non_finite(test, reference8, test8);
 }
@@ -82,9 +79,8 @@ const std::vector<MetricInfo>& all_metrics() {
     return metrics;
 }
 
-Metrics compute_metrics(const Image& reference, const Image& test, const Backdrops* reference_over,
-                        const Backdrops* test_over, const Image* reference_as_shown) {
-    const ImagePair pair(reference, test, reference_over, test_over, reference_as_shown);
+Metrics compute_metrics(const Image& reference, const Image& test, const MorePictures& more) {
+    const ImagePair pair(reference, test, more);
     Metrics result;
     result.values = nlohmann::json::object();
     for (const MetricInfo& metric : all_metrics()) {

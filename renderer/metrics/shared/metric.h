@@ -15,6 +15,15 @@ struct Backdrops {
     Image black, white;
 };
 
+/// What a comparison may have beside the two pictures; null if it was not rendered.
+struct MorePictures {
+    const Backdrops* reference_over = nullptr;
+    const Backdrops* test_over = nullptr;
+    /// The reference rounded by the device to the format of the test picture.
+    const Image* reference_as_shown = nullptr;
+    const std::vector<Image8>* test_frames = nullptr;  ///< consecutive ones, in which nothing moves
+};
+
 /// The two pictures of a comparison, same size. The float pictures are as the methods left them; the 8-bit ones are
 /// their quantization, except that a non-finite channel of `test8` holds the value furthest from the reference (0 or
 /// 255), so that a broken method never scores better than a wrong one.
@@ -23,14 +32,11 @@ struct ImagePair {
     const Image& test;
     Image8 reference8;  ///< of the reference as shown
     Image8 test8;
-    const Backdrops* reference_over;  ///< null if they were not rendered
-    const Backdrops* test_over;
+    MorePictures more;
 
-    /// `reference_as_shown` is what `reference8` is made from: the reference rounded by the device to the format of the
-    /// test picture; null for the reference itself. Throws std::invalid_argument if the sizes differ or if a picture is
-    /// empty or has more or fewer values than its size requires.
-    ImagePair(const Image& reference_image, const Image& test_image, const Backdrops* reference_backdrops = nullptr,
-              const Backdrops* test_backdrops = nullptr, const Image* reference_as_shown = nullptr);
+    /// `reference8` is made from `reference_as_shown`, if there is one. Throws std::invalid_argument if the sizes
+    /// differ or if a picture is empty or has more or fewer values than its size requires.
+    ImagePair(const Image& reference_image, const Image& test_image, const MorePictures& more_pictures = {});
 };
 
 /// Which of two values of a field is the better one.
@@ -98,7 +104,6 @@ struct Metrics {
     nlohmann::json values;
     std::vector<std::pair<std::string, Image8>> pictures;
 };
-Metrics compute_metrics(const Image& reference, const Image& test, const Backdrops* reference_over = nullptr,
-                        const Backdrops* test_over = nullptr, const Image* reference_as_shown = nullptr);
+Metrics compute_metrics(const Image& reference, const Image& test, const MorePictures& more = {});
 
 }  // namespace sheer

@@ -44,8 +44,9 @@ MethodInfo method_made_up_method() {
             .good_at = "Being found wherever methods are.",
             .bad_at = "Everything else.",
             .memory = "0 bytes per pixel",
+            .passes = "1",
         },
-        MadeUpParameters::table(), make_new<MadeUpMethod>);
+        MadeUpParameters::table(), make_new<MadeUpMethod>, pixels_and_bytes(0));
 }
 
 }  // namespace sheer
