@@ -33,6 +33,7 @@ async function call(path, options = {}) {
   }
   const is_json = (response.headers.get("Content-Type") ?? "").includes("json");
   const body = is_json ? await response.json() : null;
+  if (response.status === 401 && path !== "/session") window.dispatchEvent(new CustomEvent("sheer-token-wanted"));
   if (!response.ok)
     throw new ApiError(response.status, body ?? {}, Number(response.headers.get("Retry-After")) || null);
   return { body, location: response.headers.get("Location") };
@@ -78,6 +79,18 @@ export async function get_spec_file(url) {
   const response = await fetch(url);
   if (!response.ok) throw new ApiError(response.status, { detail: "A file of the ready comparison is missing." });
   return response.blob();
+}
+
+/** Whether the service asks for a token, and what the page's allows: {required, name, scope}. */
+export async function get_session() {
+  return (await call("/session")).body;
+}
+/** Keeps a token for this browser's session. */
+export async function begin_session(token) {
+  await post("/session", { token });
+}
+export async function end_session() {
+  await call("/session", { method: "DELETE" });
 }
 
 /** Every baseline: [{name, reports}]. */

@@ -92,10 +92,17 @@ function show_lost(main) {
   plain_page(main, "The server is not reachable", "This part of the page could not be loaded.", again);
 }
 
+/** The view is loaded anew with the token. */
+async function ask_for_token() {
+  const { open_token_dialog } = await import("./token_dialog.js");
+  open_token_dialog(() => location.reload());
+}
+
 const page = new Page();
 window.addEventListener("hashchange", () => page.show({ moved: true }));
 accept_drops((file) => {
   if (split_hash(location.hash).path !== "#/") history.pushState(null, "", "#/");
   page.show({ moved: true, file });
 });
+window.addEventListener("sheer-token-wanted", ask_for_token);
 page.show();

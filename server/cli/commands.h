@@ -11,6 +11,7 @@ void add_baseline(CLI::App& app, int& exit_code);
 void add_catalog(CLI::App& app, int& exit_code);  ///< methods, scenes, metrics, suites
 void add_serve(CLI::App& app, int& exit_code);
 void add_submit(CLI::App& app, int& exit_code);
+void add_token(CLI::App& app, int& exit_code);
 void add_worker(CLI::App& app, int& exit_code);  ///< started by serve; not shown in the help
 
 /// All of them: the commands that need neither OpenGL nor a picture library.

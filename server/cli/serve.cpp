@@ -78,12 +78,24 @@ std::string note_sandbox(const SandboxSettings& settings) {
     return reason;
 }
 
+/// Throws UsageError if anybody on the network could use the service.
+void require_tokens(bool is_open, KnownTokens& tokens, const ServiceConfig& config) {
+    if (is_open || tokens.any()) return;
+    throw UsageError(fmt::format(
+        "{} can be reached from other machines, and there are no tokens in {}: everybody could use the service. Make "
+        "one with `sheer token create NAME --data {}`; or say `--behind-proxy` if a proxy decides who may use it",
+        config.listen, config.token_file().string(), config.data.string()));
+}
+
 void serve(const ServeOptions& options) {
     // Standard output is for programs; the log is for people.
     log_to_stderr("serve");
     const ServiceConfig config = config_of(options);
     spdlog::set_level(spdlog::level::from_str(config.log_level));
     const http::Endpoint endpoint = http::parse_endpoint(config.listen);
+    KnownTokens tokens{TokenFile(config.token_file())};
+    const bool is_open = http::is_loopback(endpoint) || config.behind_proxy;
+    require_tokens(is_open, tokens, config);
     SqliteStore store(config.data, config.leases, system_now_ms);
     ReportIds ids(system_now_ms);
     DeviceList devices(config.devices_cache);
@@ -116,10 +128,11 @@ void serve(const ServeOptions& options) {
         .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); },
         .scratch = DataFolder{config.data}.scratch(),
         .path_prefix = config.path_prefix,
-        .metrics = [&observer] { return observer.metrics(); }};
+        .metrics = [&observer] { return observer.metrics(); },
+        .access = http::Access(tokens, !is_open)};
     const http::Application application(
         http::make_guard(http::is_loopback(endpoint), config.allowed_hosts, config.cors_origins),
-        http::make_router(service), http::PathPrefix(config.path_prefix));
+        http::make_router(service), http::PathPrefix(config.path_prefix), service.access);
     http::Server server(
         endpoint, config.http,
         {.answer = [&](http::Request request) { return observer.answer(application, std::move(request)); },
@@ -152,6 +165,9 @@ void add_serve(CLI::App& app, int& exit_code) {
     command->add_option_function<int>(
         "--workers", [options](int value) { options->overrides["workers"] = value; },
         fmt::format("Worker processes, {} if not given", defaults.workers));
+    command->add_flag_callback(
+        "--behind-proxy", [options] { options->overrides["behind_proxy"] = true; },
+        "A proxy decides who may use the service, which then needs no tokens beyond loopback");
     command->add_option("--config", options->config, "JSON file with any of the settings");
     command->footer("Example: sheer serve --listen 127.0.0.1:8080 --data sheer-data");
     command->callback([options, &exit_code] {

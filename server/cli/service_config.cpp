@@ -113,6 +113,14 @@ Section general_settings() {
                       "events are all below it",
                       defaults.path_prefix, 200),
           [](ServiceConfig& config, const json& value) { config.path_prefix = value; }},
+         {Param::text("tokens", "file of the tokens that `sheer token create` makes; \"\" for `tokens.json` in `data`",
+                      defaults.tokens.string(), 4096),
+          [](ServiceConfig& config, const json& value) { config.tokens = value.get<std::string>(); }},
+         {Param::boolean("behind_proxy",
+                         "whether a proxy decides who may use the service; otherwise it listens beyond loopback only "
+                         "with tokens",
+                         defaults.behind_proxy),
+          [](ServiceConfig& config, const json& value) { config.behind_proxy = value; }},
          {Param::choice("access_log",
                         "a line for each request: as text among the other messages of the level info, or as a line of "
                         "JSON; reloaded on SIGHUP",

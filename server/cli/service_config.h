@@ -24,6 +24,8 @@ struct ServiceConfig {
     std::set<std::string> allowed_hosts;
     std::set<std::string> cors_origins;
     std::string path_prefix;
+    std::filesystem::path tokens;  ///< see token_file()
+    bool behind_proxy = false;
     http::AccessLog access_log = http::AccessLog::text;
     std::string log_level = "info";  ///< a name that spdlog knows
     http::Limits http;
@@ -36,6 +38,8 @@ struct ServiceConfig {
     std::vector<RetentionRule> retention;
     std::chrono::milliseconds retention_interval{3'600'000};
     WorkerOptions worker;  ///< without `scratch`, `data`, `name`, `rules`, `sandbox` and `fork_server`
+
+    std::filesystem::path token_file() const { return tokens.empty() ? data / "tokens.json" : tokens; }
 };
 
 /// The fields of a configuration file. Its reader, configs/server.json and the documents are made from them.

@@ -228,6 +228,17 @@ const Description<answer::Pin>& description_of() {
 }
 
 template <>
+const Description<answer::Session>& description_of() {
+    using answer::Session;
+    static const auto description =
+        Description<Session>("Session", "who asks")
+            .member(&Session::required, "required", "whether the service asks for a token")
+            .member(&Session::name, "name", "of the token that this request brings; null for none")
+            .member(&Session::scope, "scope", "what it allows: read, submit or admin; null for nothing");
+    return description;
+}
+
+template <>
 const Description<answer::Baseline>& description_of() {
     using answer::Baseline;
     static const auto description = Description<Baseline>("Baseline", "a named set of accepted reports")

@@ -112,6 +112,11 @@ struct Pin {
     std::string report, url, pinned_at, by, reason;
 };
 
+struct Session {
+    bool required = false;
+    std::optional<std::string> name, scope;
+};
+
 struct TrendLevel {
     double median = 0;
     std::optional<double> low, high;
@@ -182,6 +187,8 @@ template <>
 const Description<http::answer::EarlyPictures>& description_of();
 template <>
 const Description<http::answer::Pin>& description_of();
+template <>
+const Description<http::answer::Session>& description_of();
 template <>
 const Description<http::answer::TrendLevel>& description_of();
 template <>

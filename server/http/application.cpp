@@ -76,6 +76,12 @@ Response unless_known(Response response, const Request& request, const std::stri
     return response;
 }
 
+/// Who asked for what, whatever comes of it: the access log has the outcome.
+void log_change(const std::optional<Token>& token, const Request& request) {
+    if (token)
+        spdlog::info("audit: \"{}\" ({}) {} {}", token->name, scope_text(token->scope), request.method, request.target);
+}
+
 void check_body_coding(const Request& request) {
     const auto coding = request.headers.joined("Content-Encoding");
     if (coding && *coding != "identity")
@@ -157,6 +163,8 @@ Answer Application::handle(Request& request) const {
     if (!match.route)
         throw Problem(405, fmt::format("{} is not allowed here; allowed are {}.", request.method, allow))
             .with("Allow", allow);
+    if (auto refusal = m_access.refusal(request, match.route->needed_scope())) return *refusal;
+    if (!is_safe(request.method)) log_change(m_access.token_of(request), request);
     request.path_values = std::move(match.path_values);
     request.query = read_query(question == std::string_view::npos ? "" : target.substr(question + 1),
                                match.route->query, match.route->wrong_query_status, match.route->repeatable);

@@ -1,4 +1,5 @@
 #pragma once
+#include "server/http/access.h"
 #include "server/http/guard.h"
 #include "server/http/message.h"
 #include "server/http/path_prefix.h"
@@ -6,12 +7,12 @@
 
 namespace sheer::http {
 
-/// From a request to its answer: guard, route, query, handler, headers. Independent of sockets. Safe to call from any
-/// thread.
+/// From a request to its answer: guard, route, token, query, handler, headers. Independent of sockets. Safe to call
+/// from any thread.
 class Application {
   public:
-    Application(Guard guard, Router router, PathPrefix prefix = PathPrefix())
-        : m_guard(std::move(guard)), m_router(std::move(router)), m_prefix(std::move(prefix)) {}
+    Application(Guard guard, Router router, PathPrefix prefix = PathPrefix(), Access access = {})
+        : m_guard(std::move(guard)), m_router(std::move(router)), m_prefix(std::move(prefix)), m_access(access) {}
     /// Never throws: errors become problems. HEAD is answered like GET; the sender leaves out the body.
     Answer answer(Request request) const;
     /// The pattern of the route of such a request; "" for none.
@@ -27,6 +28,7 @@ class Application {
     Guard m_guard;
     Router m_router;
     PathPrefix m_prefix;
+    Access m_access;
 };
 
 /// Added to every response: headers that protect against misuse by other sites.

@@ -53,6 +53,7 @@ void add_answers(SchemaBook& book) {
     schema_in<answer::Trend>(book);
     schema_in<answer::Health>(book);
     schema_in<answer::Readiness>(book);
+    schema_in<answer::Session>(book);
     schema_in<answer::Problem>(book);
     schema_in<pixel::Pixel>(book);
     schema_in<diff::Diff>(book);
@@ -102,6 +103,7 @@ std::map<std::string, json> component_schemas() {
     add_catalogue(book);
     add_answers(book);
     catalog::posted_spec_reference(book);
+    book.reference("NewSession", [](SchemaBook&) { return session_schema(); });
     book.reference("PinRemark", [](SchemaBook&) { return pin_schema(); });
     book.reference("Acceptance", [](SchemaBook&) { return acceptance_schema(); });
     book.reference(normalised_spec_name, [](SchemaBook&) { return normalised_spec_schema(); });

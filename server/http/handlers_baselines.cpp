@@ -116,6 +116,7 @@ std::vector<Route> baseline_routes(Service& service) {
                                   "Forget a baseline, or one report of it; the reports themselves stay",
                                   {{204, "It is forgotten", "", ""}, unknown},
                                   [&service](const Request& request) { return delete_baseline(service, request); });
+    put.scope = forget.scope = Scope::admin;
     forget.query = {Param::text("report", "id of the only report to forget", "", max_report_id_bytes)};
     return {{.method = "GET",
              .pattern = baselines_path,

@@ -42,7 +42,8 @@ Route file_route(std::string pattern, const EmbeddedFile& file) {
             .id = "",
             .summary = "",
             .replies = {},
-            .handle = [response](const Request&) { return response; }};
+            .handle = [response](const Request&) { return response; },
+            .scope = Scope::none};
 }
 
 }  // namespace

@@ -74,13 +74,14 @@ std::vector<Route> pin_routes(Service& service) {
                    {422, "The body is wrong", "application/problem+json", "Problem"}},
                   [&service](const Request& request) { return put_pin(service, request); });
     put.body_schema = "PinRemark";
+    Route unpin = pin_route("DELETE", "unpinReport", "Unpin a report", {{204, "It is no longer pinned", "", ""}},
+                            [&service](const Request& request) { return delete_pin(service, request); });
+    put.scope = unpin.scope = Scope::admin;
     return {
         pin_route(
             "GET", "getPin", "Who pinned a report, when and why", {{200, "It is pinned", "application/json", "Pin"}},
             [&service](const Request& request) { return pin_response(service, 200, request.path_values.at("id")); }),
-        std::move(put),
-        pin_route("DELETE", "unpinReport", "Unpin a report", {{204, "It is no longer pinned", "", ""}},
-                  [&service](const Request& request) { return delete_pin(service, request); })};
+        std::move(put), std::move(unpin)};
 }
 
 }  // namespace sheer::http

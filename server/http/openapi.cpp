@@ -130,6 +130,11 @@ json operation_of(const Route& route) {
         responses["415"]["headers"]["Accept"] = {{"$ref", headers_prefix + std::string("Accept")}};
     }
     if (answers_something(route)) responses["406"] = error_reply("Accept allows none of the types that there are");
+    if (const Scope scope = route.needed_scope(); scope != Scope::none) {
+        responses["401"] = error_reply("The service asks for a token");
+        responses["403"] = error_reply(
+            fmt::format("The token has not the scope {}, or the guard refuses the request", scope_text(scope)));
+    }
     responses["default"] = error_reply("An error");
     return operation;
 }
@@ -157,7 +162,12 @@ class Checked {
         for (const auto& [name, description] : described_headers())
             headers[name] = {{"description", description}, {"schema", {{"type", "string"}}}};
         for (const auto& [name, value] : m_examples) examples[name] = {{"value", value}};
-        return {{"schemas", m_schemas}, {"headers", headers}, {"examples", examples}};
+        const json token = {
+            {"type", "http"}, {"scheme", "bearer"}, {"description", "What `sheer token create` printed"}};
+        return {{"schemas", m_schemas},
+                {"headers", headers},
+                {"examples", examples},
+                {"securitySchemes", {{"token", token}}}};
     }
 
   private:
@@ -195,7 +205,8 @@ json openapi_document(const std::vector<Route>& routes, const std::vector<Tag>& 
               {"license", {{"name", "Apache License 2.0"}, {"identifier", "Apache-2.0"}}}}},
             {"servers",
              {{{"url", path_prefix.empty() ? "/" : path_prefix}, {"description", "The service that answers this"}}}},
-            {"security", json::array()},
+            // A service without tokens asks for none.
+            {"security", json::array({json::object(), json{{"token", json::array()}}})},
             {"tags", groups},
             {"paths", paths},
             {"components", checked.components()}};

@@ -43,6 +43,11 @@ json typed(const std::string& text, const std::vector<Param>& fields, const std:
 
 }  // namespace
 
+Scope Route::needed_scope() const {
+    if (scope) return *scope;
+    return is_probe ? Scope::none : is_safe(method) ? Scope::read : Scope::submit;
+}
+
 void Router::add(std::vector<Route> routes) {
     std::ranges::move(routes, std::back_inserter(m_routes));
 }

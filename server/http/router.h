@@ -1,11 +1,13 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "renderer/params/param.h"
+#include "server/access/token.h"
 #include "server/http/message.h"
 
 namespace sheer::http {
@@ -49,6 +51,11 @@ struct Route {
     std::vector<std::string> repeatable = {};  ///< texts of `query` that may be given several times: arrays of texts
     int wrong_query_status = 400;  ///< status of the answer to a query with wrong, missing or unknown fields
     std::string tag;               ///< its group in the OpenAPI document
+    /// The token that it takes, if tokens are asked for. Unless a route says otherwise: read, if it changes nothing,
+    /// and submit.
+    std::optional<Scope> scope = {};
+
+    Scope needed_scope() const;
 };
 
 struct Match {

@@ -22,6 +22,7 @@ std::vector<Topic> all_topics() {
         {{"Pins", "Reports that are never deleted or pruned"}, pin_routes},
         {{"Trends", "A number of the reports of one spec over time"}, trend_routes},
         {{"Catalog", "What this service offers: methods, scenes, metrics, ready-made specs, devices"}, catalog_routes},
+        {{"Session", "The token of a browser"}, session_routes},
         {{"Health", "For probes"}, health_routes}};
 }
 
@@ -44,7 +45,8 @@ Router make_router(Service& service) {
                   .description = "It is made from the table that answers the requests. `/api.html` shows it.",
                   .replies = {{200, "The document", "application/json", "OpenapiDocument"}},
                   .handle = {},
-                  .tag = "Catalog"};
+                  .tag = "Catalog",
+                  .scope = Scope::none};
     std::vector<Route> documented = router.routes();
     documented.push_back(openapi);
     openapi.handle = [response = json_response(200, openapi_document(documented, tags, service.path_prefix))](

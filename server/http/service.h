@@ -9,6 +9,7 @@
 #include "server/children/diff_child.h"
 #include "server/children/pixel_child.h"
 #include "server/children/upload_check.h"
+#include "server/http/access.h"
 #include "server/http/limits.h"
 #include "server/http/router.h"
 #include "server/jobs/report_id.h"
@@ -42,6 +43,7 @@ struct Service {
     std::string path_prefix = {};
     /// In the text format of Prometheus; null for none.
     std::function<std::string()> metrics = {};
+    Access access = {};
 };
 
 /// Throws Problem (403) for `what`, such as "An upload", if it needs a sandbox and there is none.
@@ -61,6 +63,7 @@ std::vector<Route> trend_routes(Service& service);     ///< numbers over time
 std::vector<Route> catalog_routes(Service& service);   ///< /methods, /scenes, /devices
 std::vector<Route> health_routes(Service& service);    ///< /healthz, /readyz
 std::vector<Route> metrics_routes(Service& service);   ///< /metrics
+std::vector<Route> session_routes(Service& service);   ///< the page's token
 std::vector<Route> page_routes();                      ///< the page at /
 
 /// All of them, and /openapi.json made from their table.
@@ -68,6 +71,9 @@ Router make_router(Service& service);
 
 /// The schema of what PUT /baselines/{name} takes.
 nlohmann::json acceptance_schema();
+
+/// The schema of what POST /session takes.
+nlohmann::json session_schema();
 
 /// The schema of what PUT /reports/{id}/pin takes.
 nlohmann::json pin_schema();

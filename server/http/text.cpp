@@ -129,8 +129,10 @@ bool is_json_type(std::string_view content_type) {
 }
 
 std::string host_name(std::string_view host) {
-    const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : host.find(':');
-    return in_lower_case(host.substr(0, end));
+    const std::size_t end = std::min(host.starts_with('[') ? host.find(']') + 1 : host.find(':'), host.size());
+    const std::string_view rest = host.substr(end);
+    const bool is_port = rest.starts_with(':') && rest.find_first_not_of("0123456789", 1) == rest.npos;
+    return in_lower_case(rest.empty() || is_port ? host.substr(0, end) : host);
 }
 
 std::string event_text(std::int64_t id, std::string_view event, std::string_view data) {
