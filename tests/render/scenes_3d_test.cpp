@@ -63,8 +63,9 @@ class Hand {
 
     Image picture(const Camera& camera, const std::string& shading = "constant") {
         look_through(m_geometry, camera, 1);
-        const Scene scene(m_context->gl(), m_geometry,
-                          {{"shading", shading}, {"texture", {{"image", "leaf"}, {"size", 16}, {"coverage_alpha", 0}}}});
+        const Scene scene(
+            m_context->gl(), m_geometry,
+            {{"shading", shading}, {"texture", {{"image", "leaf"}, {"size", 16}, {"coverage_alpha", 0}}}});
         const Target target(m_context->gl(), m_image, PixelFormat::rgba32f);
         const auto method =
             find_method("b2f")->make({*m_context, m_context->gl(), scene, target}, nlohmann::json::object());
