@@ -80,7 +80,9 @@ std::vector<Route> session_routes(Service& service) {
                           {{200, "Who asks", "application/json", "Session"}},
                           [&service](const Request& request) { return get_session(service, request); }),
             std::move(begin),
-            session_route("DELETE", "endSession", "Remove the cookie", {{204, "It is removed", "", ""}},
+            session_route("DELETE", "endSession", "Remove the cookie",
+                          {{204, "It is removed", "", ""},
+                           {403, "A page of another site asks", "application/problem+json", "Problem"}},
                           [&service](const Request&) { return end_session(service); })};
 }
 
