@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "embedded_server_files.h"
-#include "server/archive/content_folder.h"
 #include "server/archive/sqlite_index.h"
 #include "server/archive/sqlite_open.h"
 #include "server/jobs/store_errors.h"
+#include "server/storage/content_folder.h"
 
 namespace sheer {
 

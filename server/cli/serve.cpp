@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "server/archive/data_folder.h"
 #include "server/archive/sqlite_store.h"
 #include "server/children/device_list.h"
 #include "server/children/shading_check.h"
@@ -18,6 +17,7 @@
 #include "server/http/server.h"
 #include "server/http/service.h"
 #include "server/jobs/prune_timer.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer::cli {
 

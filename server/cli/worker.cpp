@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "server/archive/data_folder.h"
 #include "server/archive/sqlite_store.h"
 #include "server/cli/commands.h"
 #include "server/cli/service_config.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer::cli {
 

@@ -7,9 +7,9 @@
 
 #include "memory_store.h"
 #include "renderer/core/sha256.h"
-#include "server/archive/data_folder.h"
 #include "server/archive/sqlite_store.h"
 #include "server/jobs/report_id.h"
+#include "server/storage/data_folder.h"
 #include "temporary_folder.h"
 
 namespace sheer::test {
