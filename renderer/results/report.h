@@ -297,6 +297,7 @@ struct Head {
 
 struct UnfinishedReport : Head {
     std::string stage;
+    std::vector<Note> notes;
 };
 
 struct Report : Head {

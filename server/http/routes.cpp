@@ -22,6 +22,7 @@ std::vector<Topic> all_topics() {
         {{"Pins", "Reports that are never deleted or pruned"}, pin_routes},
         {{"Trends", "A number of the reports of one spec over time"}, trend_routes},
         {{"Catalog", "What this service offers: methods, scenes, metrics, ready-made specs, devices"}, catalog_routes},
+        {{"Workers", "The processes that render"}, worker_routes},
         {{"Health", "For probes"}, health_routes}};
 }
 
