@@ -37,7 +37,7 @@ class Store {
     /// The same only for jobs that may be waiting for a worker now; null if workers have to ask the queue instead.
     virtual std::unique_ptr<ChangeWatch> watch_jobs() = 0;
     /// Copies the pictures and uploads whose SHA-256 `text` names to the data folder of this machine, if they are kept
-    /// elsewhere: child processes read them there.
+    /// elsewhere: child processes read them there. Copies of those that the store no longer has are removed.
     virtual void bring_here(const std::string& text) = 0;
 };
 

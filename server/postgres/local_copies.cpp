@@ -66,6 +66,9 @@ void LocalCopies::bring(const std::string& table, ContentFolder& folder, const s
         for (int i = 0; i < rows.count(); ++i) found.push_back(rows.text(i, 0));
         return found;
     });
+    // What was deleted in the store must not be found here.
+    for (const std::string& sha256 : names)
+        if (std::ranges::find(there, sha256) == there.end() && folder.find(sha256)) folder.remove(sha256);
     for (const std::string& sha256 : there) {
         if (folder.is_whole(sha256)) {
             note_use(*folder.find(sha256));

@@ -76,8 +76,8 @@ ReportPage PostgresReports::list(const ListFilter& filter) {
     const ListQuery query(filter);
     return m_database.read_one_state([&](Connection& connection) {
         ReportPage page;
-        const Query lines = query.page(summary_columns), counting = query.count();
-        const Rows rows = connection.run(lines.text, lines.values);
+        const Rows rows = query.page(connection, summary_columns);
+        const Query counting = query.count();
         page.more = rows.count() > filter.limit;
         for (int i = 0; i < std::min(rows.count(), filter.limit); ++i) page.reports.push_back(summary_at(rows, i));
         const std::int64_t found = connection.run(counting.text, counting.values).integer(0, 0);
@@ -90,12 +90,16 @@ ReportPage PostgresReports::list(const ListFilter& filter) {
 std::vector<TrendReport> PostgresTrends::reports(const ListFilter& filter) {
     ListFilter done = filter;
     done.status = Status::done;
-    const Query page = ListQuery(done).page("r.id AS report_id, r.created_ms");
+    const ListQuery query(done);
     return m_database.read_one_state([&](Connection& connection) {
-        const Rows rows =
-            connection.run("SELECT p.report_id, p.created_ms, n.names, n.numbers FROM (" + page.text +
-                               ") p LEFT JOIN report_numbers n ON n.report_id = p.report_id ORDER BY p.report_id DESC",
-                           page.values);
+        const Rows page = query.page(connection, "r.id");
+        std::vector<std::string> ids;
+        for (int i = 0; i < page.count(); ++i) ids.push_back(page.text(i, 0));
+        const Rows rows = connection.run(
+            "SELECT r.id, r.created_ms, n.names, n.numbers FROM reports r LEFT JOIN report_numbers n ON n.report_id = "
+            "r.id "
+            "WHERE r.id = ANY ($1) ORDER BY r.id DESC",
+            {ids});
         const auto names = names_of(connection, rows);
         std::vector<TrendReport> reports;
         for (int i = 0; i < std::min(rows.count(), filter.limit); ++i)

@@ -50,7 +50,6 @@ CREATE TABLE reports (
 );
 
 CREATE INDEX reports_by_status ON reports (status, id);
-CREATE INDEX reports_by_time ON reports USING brin (created_ms);
 CREATE INDEX reports_by_facet ON reports USING gin (facets);
 CREATE INDEX reports_by_word ON reports USING gin (words);
 CREATE INDEX reports_that_died ON reports (spec_sha256, died_of) WHERE died_of IS NOT NULL;

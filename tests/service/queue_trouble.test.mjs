@@ -84,7 +84,7 @@ test("no job is lost or done twice while workers are killed and stopped", needs_
         assert.equal(response.status, 202);
         ids.push((await response.json()).id);
         const waiting = (await service.reports("?status=queued&limit=100")).length;
-        await sleep(waiting > 20 ? 500 : 50);
+        await sleep(waiting > 6 ? 500 : 50);
       }
     })();
     while (Date.now() < over) {

@@ -54,7 +54,7 @@ test("a comparison becomes a report with pictures, and is gone after its deletio
       const head = await fetch(service.origin + picture.url, { method: "HEAD" });
       assert.equal(Number(head.headers.get("content-length")), bytes.length);
     }
-    assert.deepEqual(new Set(service.kept_pictures()), new Set(named.map((picture) => picture.sha256)));
+    assert.deepEqual(new Set(service.kept("blobs")), new Set(named.map((picture) => picture.sha256)));
     await until(() => readdirSync(join(service.data, "scratch")).length === 0, "the scratch is cleaned");
 
     const page = await fetch(`${service.api}/reports/${id}/report.html`);
@@ -74,7 +74,7 @@ test("a comparison becomes a report with pictures, and is gone after its deletio
     assert.equal((await fetch(`${service.api}/reports/${id}`, { method: "DELETE" })).status, 204);
     await assert_problem(await fetch(`${service.api}/reports/${id}`), 404);
     await assert_problem(await fetch(service.origin + named[0].url), 404);
-    assert.deepEqual(service.kept_pictures(), []);
+    assert.deepEqual(service.kept("blobs"), []);
     assert.deepEqual(await service.reports(), []);
   }));
 

@@ -1,7 +1,7 @@
 // Starts the real program for a test, with its own port and folder.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import { connect } from "node:net";
 import { tmpdir } from "node:os";
@@ -157,10 +157,12 @@ export class Service {
     return ["--data", this.data, ...this.store_arguments()];
   }
 
-  /** The names of the pictures that the store keeps. */
-  kept_pictures() {
-    if (this.store) return ask_server("SELECT sha256 FROM sheer.blobs", this.store).split("\n").filter(Boolean);
-    const files = readdirSync(join(this.data, "blobs"), { recursive: true, withFileTypes: true });
+  /** The names of what the store keeps: `kind` is "blobs", the pictures, or "assets", the uploads. */
+  kept(kind) {
+    if (this.store) return ask_server(`SELECT sha256 FROM sheer.${kind}`, this.store).split("\n").filter(Boolean);
+    const folder = join(this.data, kind);
+    if (!existsSync(folder)) return [];
+    const files = readdirSync(folder, { recursive: true, withFileTypes: true });
     return files.filter((entry) => entry.isFile()).map((entry) => entry.name);
   }
 

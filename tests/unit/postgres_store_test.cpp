@@ -307,6 +307,11 @@ TEST_P(PostgresStoreTest, WhatChildrenReadIsCopiedToThisMachine) {
     EXPECT_TRUE(blobs.is_whole(sha256_hex("picture")));
     EXPECT_TRUE(assets.is_whole(upload));
     EXPECT_FALSE(assets.find(other)) << "longer than a hash";
+    EXPECT_EQ(m_assets.remove(upload), Assets::Removal::removed);
+    m_store.bring_here(text);
+    EXPECT_FALSE(assets.find(upload)) << "it was deleted";
+    add_asset("upload");
+    m_store.bring_here(text);
     std::filesystem::resize_file(*assets.find(upload), 2);
     m_store.bring_here(text);
     EXPECT_TRUE(assets.is_whole(upload));
