@@ -157,6 +157,11 @@ export class Service {
     return ["--data", this.data, ...this.store_arguments()];
   }
 
+  /** As if the database had been restarted. */
+  end_connections() {
+    ask_server(`SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = '${this.database}'`);
+  }
+
   /** The names of what the store keeps: `kind` is "blobs", the pictures, or "assets", the uploads. */
   kept(kind) {
     if (this.store) return ask_server(`SELECT sha256 FROM sheer.${kind}`, this.store).split("\n").filter(Boolean);
