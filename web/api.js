@@ -131,6 +131,11 @@ export async function get_report(id, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}`, { signal })).body;
 }
 
+/** The workers that were seen lately: [{name, label, driver, last_seen_at, report}]. */
+export async function get_workers(signal) {
+  return (await call("/workers", { signal })).body.workers;
+}
+
 /** What is drawn already of a report that is being timed: {point, pictures: [{label, url}]}. */
 export async function get_early_pictures(id, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}/early`, { signal })).body;

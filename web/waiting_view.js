@@ -1,6 +1,7 @@
 // A report that is queued or running: its place in the queue, how far it is, and how long it will take.
-import { delete_report, follow, get_early_pictures, list_reports } from "./api.js";
+import { delete_report, follow, get_early_pictures, get_workers, list_reports } from "./api.js";
 import { el, set_children } from "./dom.js";
+import { note_list } from "./notes.js";
 import { scene_text } from "./report_head.js";
 import { point_text } from "./sweep.js";
 
@@ -37,6 +38,16 @@ function queue_text({ place, mean_s }) {
   return mean_s === null ? name : `${name}, ${about(place * mean_s)}`;
 }
 
+function worker_line({ label, driver, report }) {
+  return el(
+    "li",
+    {},
+    el("span", { class: "where" }, label),
+    el("span", {}, driver || "not known yet"),
+    el("span", { class: "muted" }, report ? " busy" : " idle"),
+  );
+}
+
 class Waiting {
   #report;
   #signal;
@@ -46,6 +57,7 @@ class Waiting {
   #left = el("p", { class: "muted time-left" });
   #connection = el("p", { class: "notice warning", role: "alert", hidden: true }, "Connection lost, trying again…");
   #early = el("section", { class: "early", "aria-label": "Pictures so far", hidden: true });
+  #workers = el("section", { class: "workers", "aria-label": "Workers", hidden: true });
   #early_urls = "";
   #began_at = null; // when rendering was first seen, and how far it was
   #began_progress = 0;
@@ -64,9 +76,11 @@ class Waiting {
       el("div", { class: "progress-line" }, this.#bar, this.#percent),
       this.#stage,
       this.#left,
+      note_list(report.notes ?? []),
       this.#connection,
       el("div", { class: "actions" }, this.#cancel_button()),
       this.#early,
+      this.#workers,
     );
     this.update(report);
     this.#watch_queue();
@@ -149,16 +163,27 @@ class Waiting {
     );
   }
 
+  #show_workers(workers) {
+    this.#workers.hidden = this.#status !== "queued";
+    set_children(
+      this.#workers,
+      el("h2", {}, workers.length === 0 ? "No worker was seen lately" : "Workers"),
+      el("ul", { class: "note-list" }, workers.map(worker_line)),
+    );
+  }
+
   async #watch_queue() {
     while (this.#status === "queued" && !this.#signal.aborted) {
       try {
         const place = await queue_place(this.#report.id, this.#signal);
         if (this.#status === "queued") this.#left.textContent = place ? queue_text(place) : "";
+        this.#show_workers(await get_workers(this.#signal));
       } catch {
         // The stream of events says whether the service can be reached.
       }
       await new Promise((resolve) => setTimeout(resolve, QUEUE_PAUSE_MS));
     }
+    this.#workers.hidden = true;
   }
 }
 

@@ -385,7 +385,8 @@ const Description<report::UnfinishedReport>& description_of() {
         Description<report::UnfinishedReport>("UnfinishedReport",
                                               "a report that is queued or running, or that ended without being done")
             .with(description_of<report::Head>())
-            .member(&report::UnfinishedReport::stage, "stage", "the current stage of the renderer");
+            .member(&report::UnfinishedReport::stage, "stage", "the current stage of the renderer")
+            .member(&report::UnfinishedReport::notes, "notes", "why a queued report may have to wait long");
     return description;
 }
 

@@ -306,6 +306,7 @@ struct Head {
 
 struct UnfinishedReport : Head {
     std::string stage;
+    std::vector<Note> notes;
 };
 
 struct Report : Head {

@@ -99,6 +99,9 @@ std::vector<Param> spec_fields() {
             "on_undecided",
             "what a check counts as that is undecided when the time is over: neutral is told and fails nothing",
             "neutral", {"pass", "fail", "neutral"}),
+        optional_text("device",
+                      "label of the workers that may render it, see GET /workers; by default any worker, and not "
+                      "there if it is not given"),
         Param::boolean("reuse",
                        "the service answers with a done report of the same spec, program and device if it has one; not "
                        "a part of what is compared",
@@ -142,6 +145,8 @@ class SpecReader {
         read_suite(spec);
         // A wish of the sender, not a part of what is compared.
         normalised.erase("reuse");
+        // Specs without it keep the hash that they had before there were labels.
+        if (const json& device = normalised["device"]; device.is_null() || device == "") normalised.erase("device");
         read_against(spec);
         if (m_errors.empty()) {
             read_points(spec);

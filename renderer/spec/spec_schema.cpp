@@ -114,7 +114,7 @@ json normalised_spec_schema() {
                    with_label(method_schemas(normalised_schema_of), normalised_schema_of, true));
     schema["properties"]["reference"]["oneOf"] = method_schemas(normalised_schema_of);
     schema["properties"].erase("reuse");
-    std::erase(schema["required"].get_ref<json::array_t&>(), json("reuse"));
+    for (const char* name : {"reuse", "device"}) std::erase(schema["required"].get_ref<json::array_t&>(), json(name));
     json baseline = label_schema();
     baseline["description"] = "label of the method with which times are compared";
     schema["properties"]["baseline"] = baseline;

@@ -4,11 +4,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
-#include "server/archive/content_folder.h"
 #include "server/archive/sqlite_archive.h"
 #include "server/archive/sqlite_functions.h"
 #include "server/archive/sqlite_open.h"
 #include "server/jobs/limits.h"
+#include "server/storage/content_folder.h"
 
 namespace sheer {
 

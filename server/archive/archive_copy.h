@@ -1,6 +1,6 @@
 #pragma once
-#include "server/archive/data_folder.h"
 #include "server/jobs/care.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "server/archive/data_folder.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer {
 

@@ -5,8 +5,8 @@
 #include <mutex>
 #include <vector>
 
-#include "server/archive/data_folder.h"
 #include "server/archive/sqlite_open.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer {
 

@@ -22,7 +22,6 @@ class ReportFacts {
 
   private:
     bool has_seal() const;
-    std::vector<std::string> pictures_in_text() const;
     std::vector<std::string> named(const char* sql) const;
 
     SQLite::Database& m_database;

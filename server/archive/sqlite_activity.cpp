@@ -9,6 +9,7 @@ namespace {
 constexpr char part_separator = '\x1f';
 constexpr const char* lost_leases = "lost leases";
 constexpr const char* stage_kind = "stage";
+constexpr std::int64_t forgotten_after_ms = 86'400'000;
 
 void add_to_counter(SQLite::Database& database, const std::string& name, double value) {
     SQLite::Statement add(database,
@@ -54,9 +55,42 @@ ActivityCounts SqliteActivity::counts() {
             if (name == lost_leases) counts.lost_leases = static_cast<std::int64_t>(value);
             if (at != std::string::npos) counts.stage_seconds[name.substr(at + 1)] = value;
         }
-        SQLite::Statement owners(database, "SELECT count(DISTINCT lease_owner) FROM reports WHERE status = 'running'");
-        if (owners.executeStep()) counts.workers["local"] = owners.getColumn(0).getInt64();
+        SQLite::Statement owners(database,
+                                 "SELECT coalesce(label, 'local'), count(DISTINCT lease_owner) FROM reports LEFT JOIN "
+                                 "workers ON name = lease_owner WHERE status = 'running' GROUP BY 1");
+        counts.workers["local"] = 0;
+        while (owners.executeStep()) counts.workers[owners.getColumn(0).getString()] = owners.getColumn(1).getInt64();
         return counts;
+    });
+}
+
+void SqliteWorkers::note(const SeenWorker& worker) {
+    m_archive.write([&](SQLite::Database& database) {
+        SQLite::Statement gone(database, "DELETE FROM workers WHERE seen_ms < ?");
+        gone.bind(1, m_archive.now_ms() - forgotten_after_ms);
+        gone.exec();
+        SQLite::Statement note(
+            database,
+            "INSERT INTO workers VALUES (?1, ?2, ?3, ?4) ON CONFLICT (name) DO UPDATE SET label = ?2, "
+            "driver = ?3, seen_ms = ?4");
+        SQLite::bind(note, worker.name, worker.label, worker.driver, m_archive.now_ms());
+        note.exec();
+    });
+}
+
+std::vector<SeenWorker> SqliteWorkers::list(std::int64_t age_ms) {
+    return m_archive.read([&](SQLite::Database& database) {
+        SQLite::Statement rows(
+            database,
+            "SELECT name, label, driver, max(seen_ms, coalesce(lease_until_ms - ?1, 0)) AS seen, coalesce(id, '') FROM "
+            "workers LEFT JOIN reports ON status = 'running' AND lease_owner = name WHERE seen >= ?2 ORDER BY label, "
+            "name");
+        SQLite::bind(rows, m_archive.rules().lease_ms, m_archive.now_ms() - age_ms);
+        std::vector<SeenWorker> all;
+        while (rows.executeStep())
+            all.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
+                           rows.getColumn(3).getInt64(), rows.getColumn(4).getString()});
+        return all;
     });
 }
 

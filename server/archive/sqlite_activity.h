@@ -1,6 +1,7 @@
 #pragma once
 #include "server/archive/sqlite_archive.h"
 #include "server/jobs/activity.h"
+#include "server/jobs/workers.h"
 
 namespace sheer {
 
@@ -8,6 +9,16 @@ class SqliteActivity : public Activity {
   public:
     explicit SqliteActivity(SqliteArchive& archive) : m_archive(archive) {}
     ActivityCounts counts() override;
+
+  private:
+    SqliteArchive& m_archive;
+};
+
+class SqliteWorkers : public Workers {
+  public:
+    explicit SqliteWorkers(SqliteArchive& archive) : m_archive(archive) {}
+    void note(const SeenWorker& worker) override;
+    std::vector<SeenWorker> list(std::int64_t age_ms) override;
 
   private:
     SqliteArchive& m_archive;

@@ -8,12 +8,12 @@
 #include <type_traits>
 
 #include "renderer/core/clock.h"
-#include "server/archive/content_folder.h"
-#include "server/archive/data_folder.h"
 #include "server/archive/disk_room.h"
 #include "server/archive/reader_pool.h"
 #include "server/jobs/lease_rules.h"
 #include "server/jobs/store_errors.h"
+#include "server/storage/content_folder.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer {
 

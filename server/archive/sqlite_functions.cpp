@@ -10,7 +10,7 @@
 #include <string>
 
 #include "renderer/core/sha256.h"
-#include "server/archive/packed_text.h"
+#include "server/storage/packed_text.h"
 
 namespace sheer {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "embedded_server_files.h"
-#include "server/archive/content_folder.h"
 #include "server/archive/sqlite_index.h"
 #include "server/archive/sqlite_open.h"
 #include "server/jobs/store_errors.h"
+#include "server/storage/content_folder.h"
 
 namespace sheer {
 
@@ -40,15 +40,16 @@ void measure_blobs(SQLite::Database& database, const DataFolder& folder) {
     }
 }
 
-constexpr std::array<Migration, 9> migrations = {{{"schema.sql"},
-                                                  {"assets.sql"},
-                                                  {"retries.sql"},
-                                                  {"baselines.sql"},
-                                                  {"documents.sql"},
-                                                  {"search.sql", index_all},
-                                                  {"care.sql", measure_blobs},
-                                                  {"trends.sql"},
-                                                  {"metrics.sql"}}};
+constexpr std::array<Migration, 10> migrations = {{{"schema.sql"},
+                                                   {"assets.sql"},
+                                                   {"retries.sql"},
+                                                   {"baselines.sql"},
+                                                   {"documents.sql"},
+                                                   {"search.sql", index_all},
+                                                   {"care.sql", measure_blobs},
+                                                   {"trends.sql"},
+                                                   {"metrics.sql"},
+                                                   {"workers.sql"}}};
 
 std::string sql_file(const std::string& name) {
     for (const EmbeddedFile& file : embedded_server_files())

@@ -1,7 +1,7 @@
 #pragma once
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "server/archive/data_folder.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer {
 

@@ -51,16 +51,17 @@ SubmitResult SqliteQueue::submit(const NewReport& report, std::size_t max_queued
     });
 }
 
-std::optional<Lease> SqliteQueue::lease(const std::string& owner) {
+std::optional<Lease> SqliteQueue::lease(const std::string& owner, const std::string& label) {
     m_archive.finish_checkpoint();
     if (!m_archive.room().lack().empty()) return std::nullopt;
     // Idle workers ask often, so the write lock is taken only if there is something to do.
     const bool anything = m_archive.read([&](SQLite::Database& database) {
         SQLite::Statement row(
             database,
-            "SELECT EXISTS (SELECT 1 FROM reports WHERE status = 'queued' AND not_before_ms <= ?1) OR "
+            "SELECT EXISTS (SELECT 1 FROM reports WHERE status = 'queued' AND not_before_ms <= ?1 AND "
+            "coalesce(json_extract(spec, '$.device'), '') IN ('', ?2)) OR "
             "EXISTS (SELECT 1 FROM reports WHERE status = 'running' AND lease_until_ms < ?1)");
-        row.bind(1, m_archive.now_ms());
+        SQLite::bind(row, m_archive.now_ms(), label);
         return row.executeStep() && row.getColumn(0).getInt() != 0;
     });
     if (!anything) return std::nullopt;
@@ -70,8 +71,8 @@ std::optional<Lease> SqliteQueue::lease(const std::string& owner) {
         SQLite::Statement next(
             database,
             "SELECT id, attempts, spec, spec_sha256, created_ms, setbacks FROM reports WHERE status = 'queued' AND "
-            "not_before_ms <= ? ORDER BY id LIMIT 1");
-        next.bind(1, now_ms);
+            "not_before_ms <= ? AND coalesce(json_extract(spec, '$.device'), '') IN ('', ?) ORDER BY id LIMIT 1");
+        SQLite::bind(next, now_ms, label);
         if (!next.executeStep()) return std::nullopt;
         Lease lease{.id = next.getColumn(0).getString(),
                     .owner = owner,

@@ -11,7 +11,7 @@ class SqliteQueue : public JobQueue {
     SqliteQueue(SqliteArchive& archive, SqliteBlobs& blobs) : m_archive(archive), m_blobs(blobs) {}
 
     SubmitResult submit(const NewReport& report, std::size_t max_queued) override;
-    std::optional<Lease> lease(const std::string& owner) override;
+    std::optional<Lease> lease(const std::string& owner, const std::string& label) override;
     LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) override;
     LeaseState state(const Lease& lease) override;
     bool commit(const Lease& lease, const FinishedReport& finished) override;

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/clock.h"
-#include "server/archive/packed_text.h"
 #include "server/archive/sqlite_index.h"
 #include "server/jobs/limits.h"
+#include "server/storage/packed_text.h"
 
 namespace sheer {
 

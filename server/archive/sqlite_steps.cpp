@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/core/sha256.h"
-#include "server/archive/packed_text.h"
-#include "server/jobs/limits.h"
+#include "server/storage/stored_report.h"
 
 namespace sheer {
 
@@ -17,15 +15,7 @@ Status status_of(const SQLite::Column& column) {
 std::string document_in(const SQLite::Column& sha256, const SQLite::Column& packed, const std::string& id) {
     const auto* const bytes = static_cast<const char*>(packed.getBlob());
     if (bytes == nullptr) throw DamagedData(fmt::format("the text of report {} is missing", id));
-    std::string text;
-    try {
-        text = unpack_text({bytes, static_cast<std::size_t>(packed.getBytes())}, max_report_bytes);
-    } catch (const DamagedData&) {
-        throw DamagedData(fmt::format("the text of report {} cannot be read", id));
-    }
-    if (sha256_hex(text) != sha256.getString())
-        throw DamagedData(fmt::format("the text of report {} has another hash", id));
-    return text;
+    return stored_report_text({bytes, static_cast<std::size_t>(packed.getBytes())}, sha256.getString(), id);
 }
 
 std::optional<JobError> error_of(const SQLite::Column& title, const SQLite::Column& detail) {

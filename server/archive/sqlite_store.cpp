@@ -29,6 +29,7 @@ struct SqliteStore::Parts {
     SqliteReadiness readiness{archive};
     SqliteTrends trends{archive};
     SqliteActivity activity{archive};
+    SqliteWorkers workers{archive};
     SqliteCare care{archive, blobs, folder};
 };
 
@@ -66,6 +67,9 @@ Trends& SqliteStore::trends() {
 }
 Activity& SqliteStore::activity() {
     return m_parts->activity;
+}
+Workers& SqliteStore::workers() {
+    return m_parts->workers;
 }
 std::unique_ptr<ChangeWatch> SqliteStore::watch() {
     return std::make_unique<SqliteWatch>(m_parts->folder);

@@ -28,7 +28,10 @@ class SqliteStore : public Store {
     Care& care() override;
     Trends& trends() override;
     Activity& activity() override;
+    Workers& workers() override;
     std::unique_ptr<ChangeWatch> watch() override;
+    std::unique_ptr<ChangeWatch> watch_jobs() override { return nullptr; }
+    void bring_here(const std::string&) override {}
 
   private:
     struct Parts;

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "server/archive/list_query.h"
-#include "server/archive/packed_text.h"
 #include "server/jobs/limits.h"
+#include "server/storage/packed_text.h"
 
 namespace sheer {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "server/archive/data_folder.h"
 #include "server/jobs/change_watch.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer {
 

@@ -64,7 +64,8 @@ void Supervisor::tend(Slot& slot) {
 }
 
 void Supervisor::start(Slot& slot) {
-    ChildOptions options{.program = m_options.program, .arguments = m_options.arguments};
+    ChildOptions options{
+        .program = m_options.program, .arguments = m_options.arguments, .environment = m_options.environment};
     slot.name = fmt::format("{}-{}-{}", getpid(), system_now_ms(), ++m_started);
     options.arguments.insert(options.arguments.end(), {"--name", slot.name});
     options.capture_output = false;

@@ -16,7 +16,8 @@ namespace sheer {
 struct SupervisorOptions {
     int workers = 1;
     std::string program = own_program;
-    std::vector<std::string> arguments;  ///< of a worker; `--name NAME` is added
+    std::vector<std::string> arguments;         ///< of a worker; `--name NAME` is added
+    std::vector<std::string> environment = {};  ///< of a worker, besides ours, as NAME=VALUE
     std::chrono::milliseconds first_backoff{100};
     std::chrono::milliseconds longest_backoff{10'000};
     std::chrono::milliseconds stop_time{10'000};  ///< how long a worker may take to give its job back

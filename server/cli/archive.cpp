@@ -7,9 +7,9 @@
 #include "renderer/core/sha256.h"
 #include "renderer/params/json_text.h"
 #include "server/archive/archive_copy.h"
-#include "server/archive/sqlite_store.h"
 #include "server/cli/archive_arguments.h"
 #include "server/cli/commands.h"
+#include "server/cli/open_store.h"
 #include "server/cli/packed_files.h"
 #include "server/cli/report_import.h"
 #include "server/cli/service_config.h"
@@ -25,11 +25,13 @@ using nlohmann::json;
 
 namespace {
 
-SqliteStore open_store(const ArchiveArguments& options) {
+std::unique_ptr<Store> opened_store(const ArchiveArguments& options) {
+    const ServiceConfig config = load_service_config(options.config);
+    const std::string& url = options.store.empty() ? config.store : options.store;
     // Opening would make a new archive.
-    if (!fs::exists(DataFolder{options.data}.database()))
+    if (url.empty() && !fs::exists(DataFolder{options.data}.database()))
         throw UsageError(fmt::format("there is no archive in {}", options.data));
-    return SqliteStore(options.data, load_service_config(options.config).leases, system_now_ms);
+    return open_store(url, options.data, config.leases);
 }
 
 std::string megabytes(std::uint64_t bytes) {
@@ -37,8 +39,8 @@ std::string megabytes(std::uint64_t bytes) {
 }
 
 int check(const ArchiveArguments& options) {
-    SqliteStore store = open_store(options);
-    const CheckResult result = store.care().check(options.repair);
+    const auto store = opened_store(options);
+    const CheckResult result = store->care().check(options.repair);
     for (const std::string& repair : result.repairs) fmt::print("repaired: {}\n", repair);
     for (const Finding& finding : result.findings)
         fmt::print("{}: {}\n", finding.kind == Finding::Kind::damage ? "damaged" : "left over", finding.text);
@@ -48,9 +50,9 @@ int check(const ArchiveArguments& options) {
 }
 
 int collect(const ArchiveArguments& options) {
-    SqliteStore store = open_store(options);
-    const Garbage garbage = store.care().collect_garbage();
-    sweep_scratch(DataFolder{options.data}.scratch(), store.reports());
+    const auto store = opened_store(options);
+    const Garbage garbage = store->care().collect_garbage();
+    sweep_scratch(DataFolder{options.data}.scratch(), store->reports());
     fmt::print("{} files with {} and {} rows are removed\n", garbage.files, megabytes(garbage.bytes), garbage.rows);
     return exit_ok;
 }
@@ -66,11 +68,11 @@ int back_up(const ArchiveArguments& options) {
     const fs::path target = options.target;
     if (target.extension() != ".tar") {
         require_empty(target);
-        return told_copy(target.string(), open_store(options).care().back_up(target));
+        return told_copy(target.string(), opened_store(options)->care().back_up(target));
     }
     if (fs::exists(target)) throw UsageError(fmt::format("{} exists already", target.string()));
     const fs::path copy = target.string() + ".folder";
-    const BackupResult result = open_store(options).care().back_up(copy);
+    const BackupResult result = opened_store(options)->care().back_up(copy);
     write_tar(copy, target);
     fs::remove_all(copy);
     return told_copy(target.string(), result);
@@ -86,6 +88,7 @@ bool is_of_archive(const std::string& name) {
 }
 
 int restore(const ArchiveArguments& options) {
+    if (!options.store.empty()) throw UsageError("a PostgreSQL store is restored by pg_restore");
     const DataFolder data{options.data};
     require_empty(data.root);
     int exit_code = exit_ok;
@@ -100,11 +103,11 @@ int restore(const ArchiveArguments& options) {
 }
 
 int export_report(const ArchiveArguments& options) {
-    SqliteStore store = open_store(options);
+    const auto store = opened_store(options);
     const std::string file = options.out.empty() ? fmt::format("sheer-{}.zip", options.target) : options.out;
     ContentPtr zip;
     try {
-        zip = http::report_zip(store, options.target);
+        zip = http::report_zip(*store, options.target);
     } catch (const http::Problem& problem) {
         throw UsageError(problem.what());
     }
@@ -121,9 +124,9 @@ int export_report(const ArchiveArguments& options) {
 }
 
 int import_report(const ArchiveArguments& options) {
-    SqliteStore store = open_store(options);
+    const auto store = opened_store(options);
     const ImportedReport report = read_report_zip(options.target);
-    switch (store.care().import_report(report)) {
+    switch (store->care().import_report(report)) {
         case Care::Import::added:
             fmt::print("report {} is added\n", report.id);
             return exit_ok;
@@ -140,15 +143,15 @@ int import_report(const ArchiveArguments& options) {
 }
 
 int prune_reports(const ArchiveArguments& options) {
-    SqliteStore store = open_store(options);
+    const auto store = opened_store(options);
     std::vector<RetentionRule> rules = load_service_config(options.config).retention;
     if (options.rule.max_age_days || options.rule.max_reports || options.rule.max_bytes) rules = {options.rule};
     if (rules.empty())
         throw UsageError(
             "there is no rule: give --max-age-days, --max-reports or --max-bytes, or a --config with "
             "archive.retention");
-    std::vector<PrunedReport> pruned = reports_to_prune(store.care().stored_reports(), rules, system_now_ms());
-    if (!options.dry_run) pruned = prune(store, pruned);
+    std::vector<PrunedReport> pruned = reports_to_prune(store->care().stored_reports(), rules, system_now_ms());
+    if (!options.dry_run) pruned = prune(*store, pruned);
     std::uint64_t bytes = 0;
     for (const PrunedReport& report : pruned) {
         bytes += report.bytes;
@@ -160,8 +163,8 @@ int prune_reports(const ArchiveArguments& options) {
 }
 
 int pin(const ArchiveArguments& options) {
-    SqliteStore store = open_store(options);
-    switch (store.pins().pin({options.target, 0, options.by, options.reason})) {
+    const auto store = opened_store(options);
+    switch (store->pins().pin({options.target, 0, options.by, options.reason})) {
         case Pins::Pinning::not_found:
             throw UsageError(fmt::format("there is no report {}", options.target));
         case Pins::Pinning::not_final:
@@ -175,7 +178,7 @@ int pin(const ArchiveArguments& options) {
 }
 
 int unpin(const ArchiveArguments& options) {
-    if (!open_store(options).pins().unpin(options.target))
+    if (!opened_store(options)->pins().unpin(options.target))
         throw UsageError(fmt::format("report {} is not pinned, or does not exist", options.target));
     fmt::print("report {} is no longer pinned\n", options.target);
     return exit_ok;

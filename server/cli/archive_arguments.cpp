@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "renderer/command/command.h"
+#include "server/cli/open_store.h"
 
 namespace sheer::cli {
 
@@ -25,6 +26,7 @@ void add_archive_commands(CLI::App& command, const ArchiveActions& actions, int&
         one->footer(fmt::format("Example: sheer archive {}{}", name, example));
         auto options = std::make_shared<ArchiveArguments>();
         one->add_option("--data", options->data, "Folder of the archive, sheer-data if not given");
+        one->add_option("--store", options->store, store_help)->envname(store_variable);
         one->add_option("--config", options->config, "The service's JSON file");
         one->callback([options, action, &exit_code] {
             exit_code = guarded([&] {

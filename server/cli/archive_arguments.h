@@ -8,6 +8,7 @@ namespace sheer::cli {
 
 struct ArchiveArguments {
     std::string data = "sheer-data";
+    std::string store;   ///< a URL, or "" for the archive in `data`
     std::string config;  ///< the service's configuration
     std::string target;  ///< a backup, an id or a ZIP file
     std::string out;

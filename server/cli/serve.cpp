@@ -5,12 +5,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "server/archive/data_folder.h"
-#include "server/archive/sqlite_store.h"
 #include "server/children/device_list.h"
 #include "server/children/shading_check.h"
 #include "server/children/supervisor.h"
 #include "server/cli/commands.h"
+#include "server/cli/open_store.h"
 #include "server/cli/service_config.h"
 #include "server/cli/service_manager.h"
 #include "server/http/application.h"
@@ -18,6 +17,7 @@
 #include "server/http/server.h"
 #include "server/http/service.h"
 #include "server/jobs/prune_timer.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer::cli {
 
@@ -34,8 +34,10 @@ ServiceConfig config_of(const ServeOptions& options) {
     return load_service_config(options.config, options.overrides);
 }
 
-SupervisorOptions supervisor_options(const ServiceConfig& config, const ServeOptions& options) {
+SupervisorOptions supervisor_options(const ServiceConfig& config, const ServeOptions& options,
+                                     std::vector<std::string> environment) {
     SupervisorOptions supervised{.workers = config.workers, .arguments = {"worker", "--data", config.data.string()}};
+    supervised.environment = std::move(environment);
     if (!options.config.empty()) supervised.arguments.insert(supervised.arguments.end(), {"--config", options.config});
     return supervised;
 }
@@ -96,7 +98,9 @@ void serve(const ServeOptions& options) {
     KnownTokens tokens{TokenFile(config.token_file())};
     const bool is_open = http::is_loopback(endpoint) || config.behind_proxy;
     require_tokens(is_open, tokens, config);
-    SqliteStore store(config.data, config.leases, system_now_ms);
+    const std::unique_ptr<Store> opened = open_store(config.store, config.data, config.leases);
+    Store& store = *opened;
+    const std::vector<std::string> store_environment = take_store_environment(config.store);
     ReportIds ids(system_now_ms);
     DeviceList devices(config.devices_cache);
     ShadingCheckOptions shading_options;
@@ -108,28 +112,33 @@ void serve(const ServeOptions& options) {
     PruneTimer pruning(store, system_now_ms);
     const Running running{observer, pruning};
     running.apply(config);
-    http::Service service{
-        .store = store,
-        .ids = ids,
-        .clock = system_now_ms,
-        .list_devices = [&devices] { return devices.get(); },
-        .check_upload =
-            [&config](const std::string& bytes, const std::string& media_type) {
-                return check_upload(bytes, media_type, config.upload_check);
-            },
-        .pixel = [&config](
-                     const std::string& report,
-                     const PixelPlace& place) { return run_pixel_child(report, place, config.data, config.question); },
-        .diff =
-            [&config](const DiffQuestion& question) { return run_diff_child(question, config.data, config.question); },
-        .limits = config.answers,
-        .without_sandbox = note_sandbox(config.sandbox),
-        .needs_sandbox = config.sandbox.required,
-        .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); },
-        .scratch = DataFolder{config.data}.scratch(),
-        .path_prefix = config.path_prefix,
-        .metrics = [&observer] { return observer.metrics(); },
-        .access = http::Access(tokens, !is_open)};
+    http::Service service{.store = store,
+                          .ids = ids,
+                          .clock = system_now_ms,
+                          .list_devices = [&devices] { return devices.get(); },
+                          .check_upload =
+                              [&config](const std::string& bytes, const std::string& media_type) {
+                                  return check_upload(bytes, media_type, config.upload_check);
+                              },
+                          .pixel =
+                              [&config, &store](const std::string& report, const PixelPlace& place) {
+                                  store.bring_here(report);
+                                  return run_pixel_child(report, place, config.data, config.question);
+                              },
+                          .diff =
+                              [&config, &store](const DiffQuestion& question) {
+                                  store.bring_here(question.a.dump());
+                                  store.bring_here(question.b.dump());
+                                  return run_diff_child(question, config.data, config.question);
+                              },
+                          .limits = config.answers,
+                          .without_sandbox = note_sandbox(config.sandbox),
+                          .needs_sandbox = config.sandbox.required,
+                          .check_shading = [&shadings](const std::string& glsl) { return shadings.messages(glsl); },
+                          .scratch = DataFolder{config.data}.scratch(),
+                          .path_prefix = config.path_prefix,
+                          .metrics = [&observer] { return observer.metrics(); },
+                          .access = http::Access(tokens, !is_open)};
     const http::Application application(
         http::make_guard(http::is_loopback(endpoint), config.allowed_hosts, config.cors_origins),
         http::make_router(service), http::PathPrefix(config.path_prefix), service.access);
@@ -142,7 +151,7 @@ void serve(const ServeOptions& options) {
          .reload = [&options, &running] { reload(options, running); },
          .alive = ServiceManager::alive,
          .alive_interval = ServiceManager::watchdog_interval()});
-    Supervisor workers(store.queue(), supervisor_options(config, options));
+    Supervisor workers(store.queue(), supervisor_options(config, options, store_environment));
     fmt::print("Sheer listens on {}{}\n", http::url_of(server.endpoint()), config.path_prefix);
     std::fflush(stdout);
     ServiceManager::ready("listens on " + http::url_of(server.endpoint()));
@@ -162,6 +171,10 @@ void add_serve(CLI::App& app, int& exit_code) {
     command->add_option_function<std::string>(
         "--data", [options](const std::string& value) { options->overrides["data"] = value; },
         fmt::format("Folder of the archive, {} if not given", defaults.data.string()));
+    command
+        ->add_option_function<std::string>(
+            "--store", [options](const std::string& value) { options->overrides["store"] = value; }, store_help)
+        ->envname(store_variable);
     command->add_option_function<int>(
         "--workers", [options](int value) { options->overrides["workers"] = value; },
         fmt::format("Worker processes, {} if not given", defaults.workers));

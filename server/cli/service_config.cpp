@@ -11,6 +11,7 @@
 #include "server/cli/retention_config.h"
 #include "server/http/guard.h"
 #include "server/http/path_prefix.h"
+#include "server/postgres/address.h"
 #include "server/process/fork_server.h"
 
 namespace sheer::cli {
@@ -100,6 +101,12 @@ Section general_settings() {
          {Param::text("data", "folder of the archive: `archive.sqlite`, `blobs/`, `assets/`, `scratch/`",
                       defaults.data.string(), 4096),
           [](ServiceConfig& config, const json& value) { config.data = value.get<std::string>(); }},
+         {Param::text("store",
+                      "URL of a PostgreSQL database that services and workers on many machines share, such as "
+                      "`postgresql://sheer@db.example/sheer`, instead of the archive in `data`, where then only copies "
+                      "and scratch files are; the environment variable SHEER_STORE goes before it",
+                      defaults.store, 4096),
+          [](ServiceConfig& config, const json& value) { config.store = value; }},
          integer("workers",
                  "worker processes; they disturb each other's timings, so use more than one only for pictures, not "
                  "for measurements; 0 for none",
@@ -212,12 +219,24 @@ Section worker_settings() {
     const auto of_worker = [](auto member) { return in(&ServiceConfig::worker, member); };
     return {"worker",
             "the processes that render",
-            {bytes("memory_limit_bytes", "address space of a renderer; 0 for no limit", 0, tebibyte,
+            {{Param::text("device",
+                          "label of the workers that this service starts: a spec whose `device` it is goes to one of "
+                          "them",
+                          WorkerOptions().label, 100),
+              [](ServiceConfig& config, const json& value) { config.worker.label = value; }},
+             {Param::text("renders_on",
+                          "the device on which they render: an index, or a part of the name of its renderer, as "
+                          "`sheer devices` lists them; empty for the first GPU, or else the first software renderer",
+                          "", 200),
+              [](ServiceConfig& config, const json& value) { config.worker.renders_on = value; }},
+             bytes("memory_limit_bytes", "address space of a renderer; 0 for no limit", 0, tebibyte,
                    of_worker(&WorkerOptions::memory_limit_bytes)),
              seconds("time_limit_s", "time for one job", week_s, of_worker(&WorkerOptions::time_limit)),
              seconds("pixel_time_limit_s", "time for explaining one pixel of a report, or for comparing two reports",
                      hour_s, in(&ServiceConfig::question, &ChildLimits::time)),
-             seconds("poll_s", "time between two checks of the queue", 60, of_worker(&WorkerOptions::poll_interval)),
+             seconds("poll_s",
+                     "time between two checks of the queue; the workers of a PostgreSQL store are told of new jobs", 60,
+                     of_worker(&WorkerOptions::poll_interval)),
              seconds("probe_interval_s", "time between two probes of an idle worker, each of which renders one pixel",
                      day_s, of_worker(&WorkerOptions::probe_interval))}};
 }
@@ -283,6 +302,9 @@ ServiceConfig read_service_config(const json& document) {
     if (errors.empty())
         if (const std::string wrong = http::wrong_path_prefix(read["path_prefix"].get<std::string>()); !wrong.empty())
             errors.push_back({"/path_prefix", wrong});
+    if (const std::string store = read["store"].is_string() ? read["store"].get<std::string>() : "";
+        !store.empty() && !postgres::is_postgres_url(store))
+        errors.push_back({"/store", "must begin with postgresql://"});
     if (errors.empty() && read["jobs"]["lease_s"] <= read["jobs"]["heartbeat_s"])
         errors.push_back({"/jobs/lease_s", "must be longer than heartbeat_s"});
     if (!errors.empty()) throw SpecError(std::move(errors));

@@ -20,6 +20,7 @@ namespace sheer::cli {
 struct ServiceConfig {
     std::string listen = "127.0.0.1:8080";
     std::filesystem::path data = "sheer-data";
+    std::string store;  ///< see open_store()
     int workers = 1;
     std::set<std::string> allowed_hosts;
     std::set<std::string> cors_origins;

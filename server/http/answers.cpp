@@ -239,6 +239,27 @@ const Description<answer::Session>& description_of() {
 }
 
 template <>
+const Description<answer::Worker>& description_of() {
+    using answer::Worker;
+    static const auto description =
+        Description<Worker>("Worker", "a process that renders reports, on this machine or another one")
+            .member(&Worker::name, "name", "unique")
+            .member(&Worker::label, "label", "specs ask for it by their `device`")
+            .member(&Worker::driver, "driver", "the renderer of its device; empty until it has rendered something")
+            .member(&Worker::last_seen_at, "last_seen_at", "its last sign of life, UTC, RFC 3339")
+            .text_or_null(&Worker::report, "report", "id of the report that it renders; null for none");
+    return description;
+}
+
+template <>
+const Description<answer::WorkerList>& description_of() {
+    using answer::WorkerList;
+    static const auto description = Description<WorkerList>("WorkerList", "the workers that were seen lately")
+                                        .member(&WorkerList::workers, "workers", "by label and name");
+    return description;
+}
+
+template <>
 const Description<answer::Baseline>& description_of() {
     using answer::Baseline;
     static const auto description = Description<Baseline>("Baseline", "a named set of accepted reports")

@@ -144,6 +144,14 @@ struct Trend {
     std::vector<std::string> metrics, methods, points;
 };
 
+struct Worker {
+    std::string name, label, driver, last_seen_at, report;
+};
+
+struct WorkerList {
+    std::vector<Worker> workers;
+};
+
 struct Baseline {
     std::string name, url;
     std::vector<AcceptedReport> reports;
@@ -197,6 +205,10 @@ template <>
 const Description<http::answer::TrendChange>& description_of();
 template <>
 const Description<http::answer::Trend>& description_of();
+template <>
+const Description<http::answer::Worker>& description_of();
+template <>
+const Description<http::answer::WorkerList>& description_of();
 template <>
 const Description<http::answer::Baseline>& description_of();
 template <>

@@ -35,6 +35,11 @@ Result caught(const Request& request, const Work& work) {
     } catch (const StoreFull& full) {
         spdlog::error("{} {}: {}", request.method, request.target, full.what());
         return problem(507, fmt::format("There is no room: {}.", full.what()));
+    } catch (const StoreUnreachable& lost) {
+        spdlog::error("{} {}: {}", request.method, request.target, lost.what());
+        Response response = problem(503, "The store cannot be reached at present.");
+        response.headers.add("Retry-After", "5");
+        return response;
     } catch (const DamagedData& damaged) {
         spdlog::error("{} {}: {}", request.method, request.target, damaged.what());
         return problem(500, fmt::format("The archive is damaged: {}.", damaged.what()));

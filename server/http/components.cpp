@@ -52,6 +52,7 @@ void add_answers(SchemaBook& book) {
     schema_in<answer::EarlyPictures>(book);
     schema_in<answer::Trend>(book);
     schema_in<answer::Health>(book);
+    schema_in<answer::WorkerList>(book);
     schema_in<answer::Readiness>(book);
     schema_in<answer::Session>(book);
     schema_in<answer::Problem>(book);
@@ -91,7 +92,8 @@ void narrow(json& report, const std::vector<report::Status>& statuses) {
 }
 
 void mark_times(json& schema) {
-    for (const char* name : {"created_at", "finished_at", "last_rendered_at", "accepted_at", "pinned_at"})
+    for (const char* name :
+         {"created_at", "finished_at", "last_rendered_at", "last_seen_at", "accepted_at", "pinned_at"})
         if (schema.contains(json::json_pointer("/properties") / name))
             schema["properties"][name]["format"] = "date-time";
 }

@@ -4,6 +4,7 @@
 #include "renderer/spec/against_name.h"
 #include "server/http/answers.h"
 #include "server/http/application.h"
+#include "server/http/paths.h"
 #include "server/http/problem.h"
 #include "server/http/service.h"
 

@@ -133,7 +133,10 @@ std::vector<Route> report_routes(Service& service) {
                {409, "It is pinned, or accepted in a baseline", "application/problem+json", "Problem"}},
               [&service](const Request& request) { return delete_report(service, request); });
     remove.headers = {{"If-Match", "the expected ETag of the report"}};
-    remove.etag = [&service](const Request& request) { return report_etag(found_report(service, request)); };
+    remove.etag = [&service](const Request& request) {
+        const ReportRecord record = found_report(service, request);
+        return report_etag(record, queue_notes(service, record));
+    };
     events.description =
         "Each event has the current state; a client that was away gets one event for all it missed. The stream ends "
         "with the event `done`, `failed` or `cancelled`.";
@@ -141,7 +144,10 @@ std::vector<Route> report_routes(Service& service) {
     return {
         route("GET", "", "getReport", "A report, even while it is queued or running",
               {{200, "The report", "application/json", "AnyReport", {"ETag"}}},
-              [&service](const Request& request) { return report_response(200, found_report(service, request)); }),
+              [&service](const Request& request) {
+                  const ReportRecord record = found_report(service, request);
+                  return report_response(200, record, queue_notes(service, record));
+              }),
         std::move(events),
         route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
               {{200, "The page", "text/html", ""}, not_done},

@@ -98,8 +98,8 @@ Submitted submit(Service& service, QueueSpeed& speed, const Request& request) {
     return {*record};
 }
 
-Response accepted(QueueSpeed& speed, const ReportRecord& record) {
-    Response response = report_response(202, record);
+Response accepted(Service& service, QueueSpeed& speed, const ReportRecord& record) {
+    Response response = report_response(202, record, queue_notes(service, record));
     response.headers.add("Location", fmt::format("{}/{}", reports_path, record.id));
     response.headers.add("Retry-After", seconds_text(speed.until_empty()));
     return response;
@@ -123,7 +123,7 @@ Answer post_report(Service& service, const std::shared_ptr<QueueSpeed>& speed, c
         return response;
     }
     const auto wait_s = preferred_wait_s(request.headers.find("Prefer").value_or(""));
-    if (!wait_s) return accepted(*speed, record);
+    if (!wait_s) return accepted(service, *speed, record);
     const auto limit = std::min(std::chrono::seconds(*wait_s), service.limits.max_wait);
     const auto applied = [limit](Response response) {
         response.headers.add("Preference-Applied", fmt::format("wait={}", limit.count()));
@@ -136,7 +136,7 @@ Answer post_report(Service& service, const std::shared_ptr<QueueSpeed>& speed, c
         return response;
     };
     waiting.otherwise = [&service, speed, record, applied] {
-        return applied(accepted(*speed, service.store.reports().find(record.id).value_or(record)));
+        return applied(accepted(service, *speed, service.store.reports().find(record.id).value_or(record)));
     };
     return waiting;
 }

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "renderer/core/clock.h"
 #include "server/http/problem.h"
 #include "server/http/service.h"
+#include "server/jobs/facets.h"
 #include "server/jobs/limits.h"
 
 namespace sheer::http {
@@ -42,7 +45,7 @@ json stored_json(const std::string& text, const std::string& what) {
     return value;
 }
 
-std::string report_text(const ReportRecord& record) {
+std::string report_text(const ReportRecord& record, const std::vector<Note>& notes) {
     if (record.status == Status::done) return record.report;
     report::UnfinishedReport view;
     view.id = record.id;
@@ -54,7 +57,19 @@ std::string report_text(const ReportRecord& record) {
     view.spec_sha256 = record.spec_sha256;
     view.spec = stored_json(record.spec, "the spec of report " + record.id);
     view.stage = record.stage;
+    view.notes = notes;
     return to_document(view).dump();
+}
+
+std::vector<Note> queue_notes(const Service& service, const ReportRecord& record) {
+    if (record.status != Status::queued) return {};
+    const std::string device = wanted_device(json::parse(record.spec, nullptr, false));
+    if (device.empty()) return {};
+    const auto workers = service.store.workers().list(in_sight_ms(service));
+    if (std::ranges::find(workers, device, &SeenWorker::label) != workers.end()) return {};
+    return {{"no-worker",
+             fmt::format("No worker with the label \"{}\" was seen lately; the report waits for one.", device),
+             "/device"}};
 }
 
 answer::ReportLine line_of(const ReportSummary& summary) {
@@ -116,13 +131,13 @@ json event_json(const ReportRecord& record) {
     return to_document(event);
 }
 
-std::string report_etag(const ReportRecord& record) {
-    return fmt::format("\"{}-{}\"", record.id, record.revision);
+std::string report_etag(const ReportRecord& record, const std::vector<Note>& notes) {
+    return fmt::format("\"{}-{}{}\"", record.id, record.revision, notes.empty() ? "" : "-noted");
 }
 
-Response report_response(int status, const ReportRecord& record) {
-    Response response = text_response(status, report_text(record), "application/json");
-    response.headers.add("ETag", report_etag(record));
+Response report_response(int status, const ReportRecord& record, const std::vector<Note>& notes) {
+    Response response = text_response(status, report_text(record, notes), "application/json");
+    response.headers.add("ETag", report_etag(record, notes));
     response.headers.add("Cache-Control", "no-cache");
     return response;
 }

@@ -1,10 +1,12 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "renderer/results/report.h"
 #include "server/http/answers.h"
 #include "server/http/message.h"
 #include "server/http/paths.h"
+#include "server/http/service.h"
 #include "server/jobs/store.h"
 #include "server/jobs/store_errors.h"
 
@@ -20,8 +22,10 @@ report::Report report_of(const ReportRecord& record);
 report::Report done_report(Store& store, const std::string& id);
 /// The bytes of a picture of a report, which are known to match its SHA-256. Throws DamagedData.
 std::string picture_bytes(Store& store, const report::Picture& picture);
+/// Why a queued report may have to wait long.
+std::vector<Note> queue_notes(const Service& service, const ReportRecord& record);
 /// The report as its readers see it: as committed if it is done, otherwise what is known so far.
-std::string report_text(const ReportRecord& record);
+std::string report_text(const ReportRecord& record, const std::vector<Note>& notes = {});
 /// A report in the list.
 answer::ReportLine line_of(const ReportSummary& summary);
 /// Its name in the events: progress, done, failed or cancelled.
@@ -29,9 +33,9 @@ std::string event_name(Status status);
 /// The data of an event.
 nlohmann::json event_json(const ReportRecord& record);
 /// Changes whenever the text does.
-std::string report_etag(const ReportRecord& record);
+std::string report_etag(const ReportRecord& record, const std::vector<Note>& notes = {});
 /// `report_text` as a response, with an ETag that changes whenever the text does.
-Response report_response(int status, const ReportRecord& record);
+Response report_response(int status, const ReportRecord& record, const std::vector<Note>& notes = {});
 
 /// Runs `use`, which reads a report of the archive. Throws DamagedData, naming the report, if `use` throws
 /// DocumentError.

@@ -23,6 +23,7 @@ std::vector<Topic> all_topics() {
         {{"Trends", "A number of the reports of one spec over time"}, trend_routes},
         {{"Catalog", "What this service offers: methods, scenes, metrics, ready-made specs, devices"}, catalog_routes},
         {{"Session", "The token of a browser"}, session_routes},
+        {{"Workers", "The processes that render"}, worker_routes},
         {{"Health", "For probes"}, health_routes}};
 }
 

@@ -46,6 +46,9 @@ struct Service {
     Access access = {};
 };
 
+/// For how long a worker that gives no sign of life counts as present.
+std::int64_t in_sight_ms(const Service& service);
+
 /// Throws Problem (403) for `what`, such as "An upload", if it needs a sandbox and there is none.
 void require_sandbox(const Service& service, const std::string& what);
 
@@ -61,6 +64,7 @@ std::vector<Route> baseline_routes(Service& service);  ///< accepted reports
 std::vector<Route> pin_routes(Service& service);       ///< pinned reports
 std::vector<Route> trend_routes(Service& service);     ///< numbers over time
 std::vector<Route> catalog_routes(Service& service);   ///< /methods, /scenes, /devices
+std::vector<Route> worker_routes(Service& service);    ///< /workers
 std::vector<Route> health_routes(Service& service);    ///< /healthz, /readyz
 std::vector<Route> metrics_routes(Service& service);   ///< /metrics
 std::vector<Route> session_routes(Service& service);   ///< the page's token

@@ -33,6 +33,10 @@ Facets facets_of(const json& spec) {
     return facets;
 }
 
+std::string wanted_device(const json& spec) {
+    return spec.is_object() ? text_at(spec, "/device") : std::string();
+}
+
 std::string renderer_of(const json& report) {
     return report.is_object() ? text_at(report, "/device/renderer") : std::string();
 }

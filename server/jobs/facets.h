@@ -16,6 +16,9 @@ struct Facets {
 /// From the normalised spec of a report.
 Facets facets_of(const nlohmann::json& spec);
 
+/// The label of the workers that a spec asks for; "" for any.
+std::string wanted_device(const nlohmann::json& spec);
+
 /// The preview picture of a done report: the reference of its first point, or its first method's picture; null if it
 /// has none.
 nlohmann::json preview_of(const nlohmann::json& report);

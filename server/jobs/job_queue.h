@@ -63,9 +63,11 @@ class JobQueue {
 
     // The workers' side.
 
-    /// The oldest queued job that is due, now running under `owner`; jobs whose lease expired are dealt with first.
-    /// None while there is no room for reports.
-    virtual std::optional<Lease> lease(const std::string& owner) = 0;
+    /// The oldest queued job that is due and whose spec asks for no device or for `label`, now running under `owner`;
+    /// jobs whose lease expired are dealt with first. None while there is no room for reports.
+    virtual std::optional<Lease> lease(const std::string& owner, const std::string& label) = 0;
+    /// For a worker without a label.
+    std::optional<Lease> lease(const std::string& owner) { return lease(owner, ""); }
     /// Renews the lease and stores the progress.
     virtual LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) = 0;
     /// The same question without renewing anything: cheap enough to ask often.

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <string>
 
 #include "server/jobs/activity.h"
 #include "server/jobs/assets.h"
@@ -12,6 +13,7 @@
 #include "server/jobs/readiness.h"
 #include "server/jobs/report_archive.h"
 #include "server/jobs/trends.h"
+#include "server/jobs/workers.h"
 
 namespace sheer {
 
@@ -30,7 +32,13 @@ class Store {
     virtual Care& care() = 0;
     virtual Trends& trends() = 0;
     virtual Activity& activity() = 0;
+    virtual Workers& workers() = 0;
     virtual std::unique_ptr<ChangeWatch> watch() = 0;
+    /// The same only for jobs that may be waiting for a worker now; null if workers have to ask the queue instead.
+    virtual std::unique_ptr<ChangeWatch> watch_jobs() = 0;
+    /// Copies the pictures and uploads whose SHA-256 `text` names to the data folder of this machine, if they are kept
+    /// elsewhere: child processes read them there. Copies of those that the store no longer has are removed.
+    virtual void bring_here(const std::string& text) = 0;
 };
 
 }  // namespace sheer

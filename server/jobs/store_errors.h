@@ -10,13 +10,19 @@ class StoreError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The disk failed. It may work another time.
+/// What the store stands on failed: its disk, or the connection to it. It may work another time.
 class DiskError : public StoreError {
     using StoreError::StoreError;
 };
 
 /// There is no room for the data. The text is a message for the client.
 class StoreFull : public DiskError {
+    using DiskError::DiskError;
+};
+
+/// The store's server cannot be reached. If the connection was lost while something was written, it may have been
+/// written or not.
+class StoreUnreachable : public DiskError {
     using DiskError::DiskError;
 };
 

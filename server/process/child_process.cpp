@@ -43,6 +43,16 @@ ExitStatus status_of(int wait_status) {
     return {WEXITSTATUS(wait_status), 0};
 }
 
+/// Ours and `added`, for execve; none of them is in both.
+std::vector<char*> environment_pointers(std::vector<std::string>& added) {
+    std::vector<char*> pointers;
+    for (std::string& variable : added) pointers.push_back(variable.data());
+    for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable)
+        pointers.push_back(*variable);
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
 }  // namespace
 
 bool limits_memory() {
@@ -83,6 +93,8 @@ ChildProcess::ChildProcess(const ChildOptions& options) {
     std::string name = "sheer";
     std::vector<std::string> arguments = options.arguments;
     const std::vector<char*> pointers = argument_pointers(name, arguments);
+    std::vector<std::string> added = options.environment;
+    const std::vector<char*> variables = environment_pointers(added);
     const pid_t parent = getpid();
     const int output = options.capture_output ? pipe_ends[1] : STDERR_FILENO;
     if (options.fork_server && options.fork_server->program() == options.program)
@@ -91,7 +103,7 @@ ChildProcess::ChildProcess(const ChildOptions& options) {
     if (m_pid < 0) m_pid = fork();
     if (m_pid == 0) {
         settle_child(options, output, parent);
-        execv(options.program.c_str(), pointers.data());
+        execve(options.program.c_str(), pointers.data(), variables.data());
         _exit(exit_not_started);
     }
     const int fork_error = errno;

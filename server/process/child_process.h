@@ -18,7 +18,9 @@ inline constexpr const char* own_program = "/proc/self/exe";
 
 struct ChildOptions {
     std::string program = own_program;
-    std::vector<std::string> arguments;    ///< without the program's name
+    std::vector<std::string> arguments;  ///< without the program's name
+    /// NAME=VALUE, besides our own environment; not for a child that a fork server makes.
+    std::vector<std::string> environment = {};
     std::uint64_t memory_limit_bytes = 0;  ///< address space (RLIMIT_AS); 0: no limit
     int input = -1;                        ///< its standard input; -1: empty
     bool capture_output = true;            ///< otherwise the child writes to our standard error

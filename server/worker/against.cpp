@@ -66,6 +66,7 @@ void compare_with_baseline(Store& store, FinishedReport& finished, const std::fi
     const json against = finished.report.at("spec").value("against", json());
     if (!against.is_string()) return;
     const json question{{"report", finished.report}, {"accepted", accepted_for(store, against, finished.finished_ms)}};
+    store.bring_here(question.dump());
     const ChildReply reply =
         ask_child({"against-stored", "--data", data, "--own", pictures.string()}, question.dump(), limits);
     json line = json::parse(reply.line, nullptr, false);

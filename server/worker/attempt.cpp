@@ -22,6 +22,8 @@ namespace {
 // Each write of progress waits for the disk and so disturbs the timing.
 constexpr auto progress_interval = 250ms;
 constexpr auto question_interval = 200ms;
+constexpr auto commit_pause = 1s;
+constexpr int most_commits = 30;
 
 }  // namespace
 
@@ -38,6 +40,7 @@ void Attempt::run() {
     const ScratchFolder scratch(m_options.scratch, m_lease.id, m_lease.attempt);
     const fs::path spec = scratch.path() / "spec.json", out = scratch.path() / "out";
     write_file(spec, m_lease.spec);
+    m_store.bring_here(m_lease.spec);
     spdlog::info("job {} starts, attempt {}", m_lease.id, m_lease.attempt);
     conclude(run_child(child_run(spec, out)), out);
 }
@@ -47,6 +50,7 @@ ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
     run.options.program = m_options.program;
     run.options.fork_server = m_options.fork_server;
     run.options.arguments = {"render", spec.string(), "--out", out.string(), "--data", m_options.data};
+    add_device(run.options.arguments, m_options);
     confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
     run.time_limit = m_options.time_limit;
@@ -74,10 +78,18 @@ bool Attempt::keep_lease() {
     if (due) {
         beat(now);
     } else if (now - m_last_question >= question_interval) {
-        m_state = m_queue.state(m_lease);
         m_last_question = now;
+        ask();
     }
     return m_state == LeaseState::held;
+}
+
+void Attempt::ask() {
+    try {
+        m_state = m_queue.state(m_lease);
+    } catch (const StoreUnreachable&) {
+        // The next heartbeat decides.
+    }
 }
 
 /// A heartbeat that cannot be written does not stop the rendering as long as no other worker can have got the job.
@@ -108,10 +120,23 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
         spdlog::info("job {} goes back to the queue", m_lease.id);
         m_queue.release(m_lease);
     } else if (result.status.code == exit_ok || result.status.code == exit_check_failed) {
-        const bool kept = m_queue.commit(m_lease, finished_report(out));
+        const bool kept = commit(finished_report(out));
         spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before it ended");
     } else {
         conclude_failure(result.status);
+    }
+}
+
+/// A short loss of the connection does not waste the rendering.
+bool Attempt::commit(const FinishedReport& finished) {
+    for (int tries = 0;; ++tries) {
+        try {
+            return m_queue.commit(m_lease, finished);
+        } catch (const StoreUnreachable& error) {
+            spdlog::warn("job {} is not committed: {}", m_lease.id, error.what());
+            if (m_stop.requested() || tries == most_commits) throw;
+            wait_readable({m_stop.descriptor()}, static_cast<int>(commit_pause.count()));
+        }
     }
 }
 

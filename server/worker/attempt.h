@@ -21,6 +21,8 @@ class Attempt {
     ChildRun child_run(const std::filesystem::path& spec, const std::filesystem::path& out);
     void read_line(const std::string& line);
     bool keep_lease();
+    void ask();
+    bool commit(const FinishedReport& finished);
     void beat(SteadyTime now);
     void conclude(const ChildResult& result, const std::filesystem::path& out);
     /// The renderer's report, compared with the report of its `against`.

@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "renderer/core/exit_codes.h"
 #include "server/process/run_child.h"
 #include "server/worker/attempt.h"
@@ -13,6 +16,15 @@ namespace {
 
 constexpr std::chrono::seconds probe_time_limit{30};
 constexpr std::chrono::milliseconds disk_pause{500};
+/// A worker that is told of new jobs asks for those whose worker died, or whose time has come, only this often.
+constexpr std::chrono::milliseconds unasked{2'000};
+
+/// What the reader of a report is told of an error of the store.
+std::string reason_of(const DiskError& error) {
+    if (dynamic_cast<const StoreFull*>(&error) != nullptr) return "The archive's disk is full.";
+    if (dynamic_cast<const StoreUnreachable*>(&error) != nullptr) return "The store cannot be reached.";
+    return "The archive's disk fails.";
+}
 
 }  // namespace
 
@@ -21,11 +33,13 @@ Worker::Worker(Store& store, WorkerOptions options, ClockMs clock)
 
 void Worker::run(StopSignal& stop) {
     sweep_scratch(m_options.scratch, m_store.reports());
+    m_watch = m_store.watch_jobs();
+    show_up();
     while (!stop.requested()) {
         try {
             work(stop);
         } catch (const DiskError& error) {
-            spdlog::error("the archive cannot be used: {}", error.what());
+            spdlog::error("the store cannot be used: {}", error.what());
             wait_readable({stop.descriptor()}, static_cast<int>(disk_pause.count()));
         }
     }
@@ -38,12 +52,27 @@ void Worker::work(StopSignal& stop) {
         m_next_probe = std::chrono::steady_clock::now() + m_options.probe_interval;
         probe(stop);
     } else {
-        wait_readable({stop.descriptor()}, static_cast<int>(m_options.poll_interval.count()));
+        wait_for_job(stop);
+    }
+}
+
+void Worker::wait_for_job(StopSignal& stop) {
+    const int told = m_watch ? m_watch->descriptor() : -1;
+    const auto wait = told >= 0 ? std::max(m_options.poll_interval, unasked) : m_options.poll_interval;
+    wait_readable({stop.descriptor(), told}, static_cast<int>(wait.count()));
+    if (m_watch) m_watch->wait(std::chrono::milliseconds(0));
+}
+
+void Worker::show_up() {
+    try {
+        m_store.workers().note({.name = m_options.name, .label = m_options.label, .driver = m_driver});
+    } catch (const DiskError& error) {
+        spdlog::warn("others do not see this worker: {}", error.what());
     }
 }
 
 bool Worker::run_next(StopSignal& stop) {
-    const std::optional<Lease> lease = m_store.queue().lease(m_options.name);
+    const std::optional<Lease> lease = m_store.queue().lease(m_options.name, m_options.label);
     if (!lease) return false;
     attempt(*lease, stop);
     return true;
@@ -55,8 +84,7 @@ void Worker::attempt(const Lease& lease, StopSignal& stop) {
     } catch (const DiskError& error) {
         spdlog::error("job {}: {}", lease.id, error.what());
         const bool full = dynamic_cast<const StoreFull*>(&error) != nullptr;
-        set_back(lease, {report_not_kept, full ? "The archive's disk is full." : "The archive's disk fails."}, full,
-                 stop);
+        set_back(lease, {report_not_kept, reason_of(error)}, full, stop);
     } catch (const std::system_error& error) {
         // Errors of the scratch folder and of processes that could not be started.
         spdlog::error("job {}: {}", lease.id, error.what());
@@ -83,6 +111,11 @@ void Worker::probe(StopSignal& stop) {
     run.options.program = m_options.program;
     run.options.fork_server = m_options.fork_server;
     run.options.arguments = {"render", "--probe"};
+    add_device(run.options.arguments, m_options);
+    run.on_line = [this](const std::string& line) {
+        const nlohmann::json said = nlohmann::json::parse(line, nullptr, false);
+        if (said.is_object() && said.contains("renderer")) m_driver = said.value("renderer", "");
+    };
     confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
     run.time_limit = probe_time_limit;
@@ -91,6 +124,7 @@ void Worker::probe(StopSignal& stop) {
     const ChildResult result = run_child(run);
     if (result.status.code == exit_ok) {
         m_store.readiness().note_rendered();
+        show_up();
     } else if (!result.stopped) {
         spdlog::warn("this worker cannot render: exit code {}, signal {}{}", result.status.code, result.status.signal,
                      result.timed_out ? ", too slow" : "");

@@ -14,7 +14,7 @@ import {
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { QUICK, Service, until } from "./service.mjs";
+import { needs_postgres, needs_sqlite, QUICK, Service, until } from "./service.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "sheer-archive-"));
 let service;
@@ -46,14 +46,14 @@ after(async () => {
   rmSync(folder, { recursive: true });
 });
 
-test("a service's archive is checked, copied and restored while it runs", () => {
-  const checked = archive("fsck", "--data", service.data);
+test("a service's archive is checked, copied and restored while it runs", needs_sqlite, () => {
+  const checked = archive("fsck", ...service.place());
   assert.equal(checked.status, 0, checked.stdout + checked.stderr);
   assert.match(checked.stdout, /1 reports, \d+ pictures, 0 uploads, .*: everything is there/);
-  assert.equal(archive("gc", "--data", service.data).status, 0);
+  assert.equal(archive("gc", ...service.place()).status, 0);
   for (const backup of ["backup", "backup.tar"]) {
-    assert.equal(archive("backup", backup, "--data", service.data).status, 0);
-    assert.equal(archive("backup", backup, "--data", service.data).status, 2, "it exists already");
+    assert.equal(archive("backup", backup, ...service.place()).status, 0);
+    assert.equal(archive("backup", backup, ...service.place()).status, 2, "it exists already");
     const restored = archive("restore", backup, "--data", `of-${backup}`);
     assert.equal(restored.status, 0, restored.stdout + restored.stderr);
     assert.match(archive("restore", backup, "--data", `of-${backup}`).stderr, /not empty/);
@@ -61,8 +61,8 @@ test("a service's archive is checked, copied and restored while it runs", () => 
   assert.ok(!existsSync(join(folder, "backup.tar.folder")));
 });
 
-test("damage is an exit code, and a repair moves what is damaged aside", () => {
-  assert.equal(archive("backup", "hurt", "--data", service.data).status, 0);
+test("damage is an exit code, and a repair moves what is damaged aside", needs_sqlite, () => {
+  assert.equal(archive("backup", "hurt", ...service.place()).status, 0);
   const picture = files_below(join(folder, "hurt", "blobs"))[0];
   truncateSync(picture, 10);
   const found = archive("fsck", "--data", "hurt");
@@ -74,9 +74,18 @@ test("damage is an exit code, and a repair moves what is damaged aside", () => {
   assert.match(repaired.stdout, /^repaired: moved to quarantine\//m);
   assert.equal(files_below(join(folder, "hurt", "quarantine")).length, 1);
   // The same report from another archive has the picture.
-  assert.equal(archive("export", report.id, "--data", service.data, "--out", "whole.zip").status, 0);
+  assert.equal(archive("export", report.id, ...service.place(), "--out", "whole.zip").status, 0);
   assert.match(archive("import", "whole.zip", "--data", "hurt").stdout, /restored/);
   assert.equal(archive("fsck", "--data", "hurt").status, 0);
+});
+
+test("a PostgreSQL store is checked, and what PostgreSQL does itself is refused", needs_postgres, () => {
+  const checked = archive("fsck", ...service.place());
+  assert.equal(checked.status, 0, checked.stdout + checked.stderr);
+  assert.match(checked.stdout, /1 reports, \d+ pictures, 0 uploads, .*: everything is there/);
+  assert.equal(archive("gc", ...service.place()).status, 0);
+  assert.match(archive("backup", "backup", ...service.place()).stderr, /pg_dump/);
+  assert.match(archive("restore", "backup", ...service.place()).stderr, /pg_restore/);
 });
 
 test("a report moves to another service", async () => {
@@ -84,9 +93,9 @@ test("a report moves to another service", async () => {
   writeFileSync(join(folder, "served.zip"), Buffer.from(await zip.arrayBuffer()));
   const other = await new Service({ workers: 0 }).start();
   try {
-    const added = archive("import", "served.zip", "--data", other.data);
+    const added = archive("import", "served.zip", ...other.place());
     assert.equal(added.status, 0, added.stderr);
-    assert.match(archive("import", "served.zip", "--data", other.data).stdout, /there already/);
+    assert.match(archive("import", "served.zip", ...other.place()).stdout, /there already/);
     const moved = await (await fetch(`${other.api}/reports/${report.id}`)).json();
     assert.deepEqual(moved, report);
     const image = report.runs[0].reference.images.color;
@@ -101,11 +110,11 @@ test("a report moves to another service", async () => {
     const at = broken.indexOf("\x89PNG", broken.indexOf("images/"), "latin1");
     broken[at + 40] ^= 1;
     writeFileSync(join(folder, "broken.zip"), broken);
-    const refused = archive("import", "broken.zip", "--data", other.data);
+    const refused = archive("import", "broken.zip", ...other.place());
     assert.equal(refused.status, 2);
     assert.match(refused.stderr, /CRC/);
     writeFileSync(join(folder, "text.zip"), "no zip");
-    assert.equal(archive("import", "text.zip", "--data", other.data).status, 2);
+    assert.equal(archive("import", "text.zip", ...other.place()).status, 2);
   } finally {
     await other.end();
   }
@@ -114,11 +123,11 @@ test("a report moves to another service", async () => {
 test("wrong uses are explained", () => {
   assert.match(archive("fsck", "--data", "nowhere").stderr, /no archive in nowhere/);
   assert.ok(!existsSync(join(folder, "nowhere")));
-  assert.match(archive("export", "no-such-id", "--data", service.data).stderr, /no-such-id/);
-  assert.match(archive("prune", "--data", service.data).stderr, /no rule/);
+  assert.match(archive("export", "no-such-id", ...service.place()).stderr, /no-such-id/);
+  assert.match(archive("prune", ...service.place()).stderr, /no rule/);
   for (const words of [
     ["fsck", "--data", "nowhere"],
-    ["export", "x", "--data", service.data],
+    ["export", "x", ...service.place()],
     ["restore", "nowhere"],
     ["frobnicate"],
   ])
@@ -136,19 +145,16 @@ test("a pinned report is kept, and rules in the configuration remove others", as
   assert.equal((await (await fetch(pin)).json()).reason, "the best one");
   assert.equal((await service.reports())[0].pinned, true);
   assert.equal((await fetch(`${service.api}/reports/${report.id}`, { method: "DELETE" })).status, 409);
-  assert.match(archive("prune", "--max-reports", "0", "--data", service.data).stdout, /0 reports/);
+  assert.match(archive("prune", "--max-reports", "0", ...service.place()).stdout, /0 reports/);
   assert.equal((await fetch(pin, { method: "DELETE" })).status, 204);
-  assert.match(
-    archive("prune", "--max-reports", "0", "--dry-run", "--data", service.data).stdout,
-    /1 reports .* would be/,
-  );
+  assert.match(archive("prune", "--max-reports", "0", "--dry-run", ...service.place()).stdout, /1 reports .* would be/);
   assert.equal((await service.reports()).length, 1);
   const pruned = await new Service({
     workers: 0,
     archive: { retention: [{ tag: "branch:main", max_reports: 0 }], retention_interval_s: 0.1 },
   }).start();
   try {
-    assert.equal(archive("import", "served.zip", "--data", pruned.data).status, 0);
+    assert.equal(archive("import", "served.zip", ...pruned.place()).status, 0);
     await until(async () => (await pruned.reports()).length === 0, "it is pruned");
   } finally {
     await pruned.end();

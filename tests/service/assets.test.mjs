@@ -1,8 +1,6 @@
 // Uploaded files: what is accepted, what is refused, and how a spec may use them.
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
-import { existsSync, readdirSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
 import { plain_png, png } from "./pictures.mjs";
 import { assert_problem, QUICK, with_service } from "./service.mjs";
@@ -20,13 +18,6 @@ async function listed(service) {
   const response = await fetch(`${service.api}/assets`);
   assert.equal(response.status, 200);
   return (await response.json()).assets;
-}
-
-function files_kept(service) {
-  const folder = join(service.data, "assets");
-  return existsSync(folder)
-    ? readdirSync(folder, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile())
-    : [];
 }
 
 const textured = (image) => ({
@@ -92,7 +83,7 @@ test("an upload is stored once and becomes the texture of a report", async () =>
     await assert_problem(await fetch(service.origin + asset.url), 404);
     await assert_problem(await fetch(service.origin + asset.url, { method: "DELETE" }), 404);
     assert.deepEqual(await listed(service), [black]);
-    assert.equal(files_kept(service).length, 1);
+    assert.equal(service.kept("assets").length, 1);
   });
 });
 
@@ -114,7 +105,7 @@ test("a file that does not match its type is refused with the reason, and nothin
       assert.match(problem.detail, reason, name);
     }
     assert.deepEqual(await listed(service), []);
-    assert.deepEqual(files_kept(service), []);
+    assert.deepEqual(service.kept("assets"), []);
     assert.equal((await upload(service, PICTURE, "image/png")).status, 201);
     // Assets have their own limit.
     await assert_problem(await service.post(" ".repeat(30_000)), 400);
@@ -126,7 +117,7 @@ test("a check that takes too long is a refusal", async () => {
   await with_service({ workers: 0, assets: { check_time_s: 0.05 } }, async (service) => {
     const problem = await assert_problem(await upload(service, large, "image/png"), 422);
     assert.match(problem.detail, /longer than 0\.05 s/);
-    assert.deepEqual(files_kept(service), []);
+    assert.deepEqual(service.kept("assets"), []);
   });
 });
 

@@ -15,12 +15,6 @@ function pictures(value) {
   return Object.values(value).flatMap(pictures);
 }
 
-function files_below(folder) {
-  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
-    entry.isDirectory() ? files_below(join(folder, entry.name)) : [entry.name],
-  );
-}
-
 test("a comparison becomes a report with pictures, and is gone after its deletion", () =>
   with_service({}, async (service) => {
     const posted = await service.post(QUICK);
@@ -60,10 +54,7 @@ test("a comparison becomes a report with pictures, and is gone after its deletio
       const head = await fetch(service.origin + picture.url, { method: "HEAD" });
       assert.equal(Number(head.headers.get("content-length")), bytes.length);
     }
-    assert.deepEqual(
-      new Set(files_below(join(service.data, "blobs"))),
-      new Set(named.map((picture) => picture.sha256)),
-    );
+    assert.deepEqual(new Set(service.kept("blobs")), new Set(named.map((picture) => picture.sha256)));
     await until(() => readdirSync(join(service.data, "scratch")).length === 0, "the scratch is cleaned");
 
     const page = await fetch(`${service.api}/reports/${id}/report.html`);
@@ -83,7 +74,7 @@ test("a comparison becomes a report with pictures, and is gone after its deletio
     assert.equal((await fetch(`${service.api}/reports/${id}`, { method: "DELETE" })).status, 204);
     await assert_problem(await fetch(`${service.api}/reports/${id}`), 404);
     await assert_problem(await fetch(service.origin + named[0].url), 404);
-    assert.deepEqual(files_below(join(service.data, "blobs")), []);
+    assert.deepEqual(service.kept("blobs"), []);
     assert.deepEqual(await service.reports(), []);
   }));
 

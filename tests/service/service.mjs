@@ -1,11 +1,11 @@
 // Starts the real program for a test, with its own port and folder.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { execFileSync, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import { connect } from "node:net";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
 import { contract_at, hold_to_contract } from "./contract.mjs";
 
@@ -75,6 +75,23 @@ export function is_alive(pid) {
   }
 }
 
+/** With the URL of a PostgreSQL server here, each service gets a database of its own there. */
+const STORE = process.env.SHEER_TEST_STORE;
+
+/** For tests of what only the archive in a folder has. */
+export const needs_sqlite = STORE ? { skip: "of the archive in a folder" } : {};
+/** The reverse. */
+export const needs_postgres = STORE ? {} : { skip: "there is no PostgreSQL server" };
+
+/** The rows that a statement gives, as lines. */
+function ask_server(sql, url = STORE) {
+  return execFileSync("psql", ["-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-d", url, "-c", sql], {
+    stdio: ["ignore", "pipe", "inherit"],
+    encoding: "utf8",
+    env: { ...process.env, PGOPTIONS: "-c client_min_messages=warning" },
+  });
+}
+
 export class Service {
   constructor(config = {}, folder = mkdtempSync(join(tmpdir(), "sheer-service-"))) {
     this.folder = folder;
@@ -84,6 +101,15 @@ export class Service {
     this.wrapper = []; // a command that starts the program
     this.program = PROGRAM;
     writeFileSync(this.config, JSON.stringify(config));
+    if (STORE) this.make_database();
+  }
+
+  /** Services with the same folder share it. */
+  make_database() {
+    this.database = basename(this.folder);
+    this.store = STORE.replace(/^(\w+:\/\/[^/]*\/)[^?]*/, `$1${this.database}`);
+    if (!ask_server(`SELECT 1 FROM pg_database WHERE datname = '${this.database}'`))
+      ask_server(`CREATE DATABASE "${this.database}"`);
   }
 
   async start(...more_arguments) {
@@ -91,7 +117,18 @@ export class Service {
     const [program, ...words] = [...this.wrapper, this.program];
     this.process = spawn(
       program,
-      [...words, "serve", "--listen", this.listen, "--data", this.data, "--config", this.config, ...more_arguments],
+      [
+        ...words,
+        "serve",
+        "--listen",
+        this.listen,
+        "--data",
+        this.data,
+        "--config",
+        this.config,
+        ...this.store_arguments(),
+        ...more_arguments,
+      ],
       { stdio: ["ignore", "pipe", "pipe"] },
     );
     this.process.stderr.on("data", (text) => {
@@ -111,6 +148,29 @@ export class Service {
     return this;
   }
 
+  store_arguments() {
+    return this.store ? ["--store", this.store] : [];
+  }
+
+  /** The arguments of other commands for the same store. */
+  place() {
+    return ["--data", this.data, ...this.store_arguments()];
+  }
+
+  /** As if the database had been restarted. */
+  end_connections() {
+    ask_server(`SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = '${this.database}'`);
+  }
+
+  /** The names of what the store keeps: `kind` is "blobs", the pictures, or "assets", the uploads. */
+  kept(kind) {
+    if (this.store) return ask_server(`SELECT sha256 FROM sheer.${kind}`, this.store).split("\n").filter(Boolean);
+    const folder = join(this.data, kind);
+    if (!existsSync(folder)) return [];
+    const files = readdirSync(folder, { recursive: true, withFileTypes: true });
+    return files.filter((entry) => entry.isFile()).map((entry) => entry.name);
+  }
+
   async stop() {
     if (this.process.exitCode === null && this.process.signalCode === null) this.process.kill("SIGTERM");
     return this.ended;
@@ -118,6 +178,7 @@ export class Service {
 
   async end() {
     await this.stop();
+    if (this.store) ask_server(`DROP DATABASE IF EXISTS "${this.database}" WITH (FORCE)`);
     rmSync(this.folder, { recursive: true, force: true });
   }
 

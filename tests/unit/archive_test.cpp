@@ -195,16 +195,17 @@ TEST_P(ArchiveTest, StoredDataIsThereForTheNextProcess) {
 
 TEST_P(ArchiveTest, ChangesByOtherProcessesAreNoticed) {
     const auto other = m_place->open(m_rules, m_clock);
+    const std::string first = submit("first"), second = submit("second");
     const auto watch = m_store.watch();
     EXPECT_FALSE(watch->wait(10ms));
-    other->readiness().note_rendered();
+    other->reports().remove(first);
     EXPECT_TRUE(watch->wait(5s));
     EXPECT_FALSE(watch->wait(10ms));
     submit("own changes as well");
     EXPECT_TRUE(watch->wait(5s));
     std::thread writer([&] {
         std::this_thread::sleep_for(20ms);
-        other->readiness().note_rendered();
+        other->reports().remove(second);
     });
     EXPECT_TRUE(watch->wait(5s));
     writer.join();

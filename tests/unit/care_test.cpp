@@ -8,7 +8,7 @@
 #include <random>
 
 #include "server/archive/archive_copy.h"
-#include "server/archive/content_folder.h"
+#include "server/storage/content_folder.h"
 #include "store_fixture.h"
 
 namespace sheer::test::care_test {

@@ -1,4 +1,4 @@
-#include "server/archive/content_folder.h"
+#include "server/storage/content_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

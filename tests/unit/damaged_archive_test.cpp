@@ -4,10 +4,10 @@
 
 #include <fstream>
 
-#include "server/archive/content_folder.h"
 #include "server/archive/sqlite_open.h"
 #include "server/http/application.h"
 #include "server/http/service.h"
+#include "server/storage/content_folder.h"
 #include "store_fixture.h"
 
 namespace sheer::test::damaged_archive_test {

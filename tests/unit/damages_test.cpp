@@ -6,7 +6,7 @@
 #include <fstream>
 #include <random>
 
-#include "server/archive/content_folder.h"
+#include "server/storage/content_folder.h"
 #include "store_fixture.h"
 
 namespace sheer::test::damages_test {

@@ -15,6 +15,50 @@ TEST_P(LeasesTest, JobsAreLeasedOldestFirstAndOnce) {
     EXPECT_EQ(status(first), Status::running);
 }
 
+TEST_P(LeasesTest, ASpecWithADeviceWaitsForAWorkerWithThisLabel) {
+    const std::string nvidia = submit("on a GPU", {{"device", "nvidia"}}), any = submit("anywhere");
+    const std::string amd = submit("on another", {{"device", "amd"}});
+    EXPECT_EQ(m_queue.lease("a", "intel")->id, any);
+    EXPECT_FALSE(m_queue.lease("a", "intel"));
+    EXPECT_FALSE(m_queue.lease("a"));
+    EXPECT_FALSE(m_queue.lease("a", "nvid"));
+    const auto leased = m_queue.lease("b", "nvidia");
+    ASSERT_TRUE(leased);
+    EXPECT_EQ(leased->id, nvidia);
+    EXPECT_FALSE(m_queue.lease("b", "nvidia"));
+    m_queue.release(*leased);
+    EXPECT_FALSE(m_queue.lease("a", "intel")) << "it keeps its wish";
+    EXPECT_EQ(m_queue.lease("b", "nvidia")->id, nvidia);
+    EXPECT_EQ(m_queue.lease("c", "amd")->id, amd);
+}
+
+TEST_P(LeasesTest, WorkersAreSeenWhileTheyGiveASignOfLife) {
+    Workers& workers = m_store.workers();
+    workers.note({.name = "b", .label = "nvidia", .driver = ""});
+    m_now_ms += 60'000;
+    workers.note({.name = "a", .label = "nvidia", .driver = "llvmpipe"});
+    workers.note({.name = "c", .label = "local", .driver = ""});
+    const auto names = [&](std::int64_t age_ms) {
+        std::string all;
+        for (const SeenWorker& worker : workers.list(age_ms)) all += worker.name;
+        return all;
+    };
+    EXPECT_EQ(names(60'000), "cab");
+    EXPECT_EQ(names(59'999), "ca");
+    m_now_ms += 60'000;
+    submit("job", {{"device", "nvidia"}});
+    const Lease job = *m_queue.lease("a", "nvidia");
+    ASSERT_EQ(names(59'000), "a") << "a job's heartbeats are signs of life";
+    const SeenWorker seen = workers.list(59'000).at(0);
+    EXPECT_EQ(seen.label, "nvidia");
+    EXPECT_EQ(seen.driver, "llvmpipe");
+    EXPECT_EQ(seen.job, job.id);
+    EXPECT_EQ(seen.seen_ms, m_now_ms);
+    m_queue.cancel(job);
+    EXPECT_EQ(names(59'000), "");
+    EXPECT_EQ(workers.list(60'001).at(0).job, "");
+}
+
 TEST_P(LeasesTest, AHeartbeatKeepsTheLeaseAndTheProgress) {
     const std::string id = submit();
     const Lease job = lease();

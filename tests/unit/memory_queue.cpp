@@ -59,13 +59,15 @@ class Queue : public JobQueue {
         return {Outcome::created, report.id};
     }
 
-    std::optional<Lease> lease(const std::string& owner) override {
+    std::optional<Lease> lease(const std::string& owner, const std::string& label) override {
         const Writing state(*m_base.state);
         const std::int64_t now_ms = m_base.clock();
         for (auto& [id, job] : state->jobs)
             if (job.record.status == Status::running && job.lease_until_ms < now_ms) lose(job);
         for (auto& [id, job] : state->jobs) {
             if (job.record.status != Status::queued || job.not_before_ms > now_ms) continue;
+            const std::string device = wanted_device(json::parse(job.record.spec));
+            if (!device.empty() && device != label) continue;
             requeue(job, job.attempts + 1);
             job.record.status = Status::running;
             job.owner = owner;

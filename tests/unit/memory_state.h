@@ -49,6 +49,7 @@ struct MemoryState {
     std::uint64_t assets_added = 0;
     std::vector<AcceptedReport> accepted;
     std::map<std::string, Pin> pins;
+    std::map<std::string, SeenWorker> workers;
     std::optional<std::int64_t> last_rendered_ms;
 };
 

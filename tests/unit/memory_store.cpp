@@ -304,6 +304,32 @@ class NoActivity : public Activity {
     ActivityCounts counts() override { return {}; }
 };
 
+class Seen : public Workers {
+  public:
+    explicit Seen(const Base& base) : m_base(base) {}
+    void note(const SeenWorker& worker) override {
+        SeenWorker& kept = Writing(*m_base.state)->workers[worker.label + " " + worker.name];
+        kept = worker;
+        kept.seen_ms = m_base.clock();
+    }
+    std::vector<SeenWorker> list(std::int64_t age_ms) override {
+        const Reading state(*m_base.state);
+        std::vector<SeenWorker> all;
+        for (auto [key, worker] : state->workers) {
+            for (const auto& [id, job] : state->jobs)
+                if (job.record.status == Status::running && job.owner == worker.name) {
+                    worker.job = id;
+                    worker.seen_ms = std::max(worker.seen_ms, job.lease_until_ms - m_base.rules.lease_ms);
+                }
+            if (worker.seen_ms >= m_base.clock() - age_ms) all.push_back(worker);
+        }
+        return all;
+    }
+
+  private:
+    const Base& m_base;
+};
+
 class NoTrends : public Trends {
   public:
     std::vector<TrendReport> reports(const ListFilter&) override { return {}; }
@@ -358,6 +384,7 @@ struct MemoryStore::Parts {
     memory_store::NoCare care;
     memory_store::NoTrends trends;
     memory_store::NoActivity activity;
+    memory_store::Seen workers{base};
 };
 
 MemoryStore::MemoryStore(std::shared_ptr<MemoryState> state, LeaseRules rules, ClockMs clock)
@@ -394,6 +421,9 @@ Trends& MemoryStore::trends() {
 }
 Activity& MemoryStore::activity() {
     return m_parts->activity;
+}
+Workers& MemoryStore::workers() {
+    return m_parts->workers;
 }
 std::unique_ptr<ChangeWatch> MemoryStore::watch() {
     return std::make_unique<memory_store::Watch>(m_parts->base.state);

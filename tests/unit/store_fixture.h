@@ -4,12 +4,14 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "memory_store.h"
 #include "renderer/core/sha256.h"
-#include "server/archive/data_folder.h"
 #include "server/archive/sqlite_store.h"
 #include "server/jobs/report_id.h"
+#include "server/postgres/postgres_store.h"
+#include "server/storage/data_folder.h"
 #include "temporary_folder.h"
 
 namespace sheer::test {
@@ -42,6 +44,26 @@ class SqlitePlace : public StorePlace {
   private:
     std::filesystem::path m_data;
 };
+
+/// An empty schema in a database of this process on the server that SHEER_TEST_STORE names; see
+/// tests/private_postgres.sh.
+class PostgresPlace : public StorePlace {
+  public:
+    explicit PostgresPlace(std::filesystem::path data);
+    std::unique_ptr<Store> open(LeaseRules rules, ClockMs clock) override {
+        return std::make_unique<PostgresStore>(m_url, m_data, rules, std::move(clock));
+    }
+    const std::string& url() const { return m_url; }
+    /// One statement, as another client of the database.
+    void run(const std::string& sql) const;
+
+  private:
+    const std::filesystem::path m_data;
+    const std::string m_url;
+};
+
+/// Whether there is a server for PostgresPlace.
+bool has_postgres();
 
 /// An empty store, with a clock that moves only when told to, and a folder for the other needs of a test.
 class StoreFixture {
@@ -141,6 +163,10 @@ inline std::unique_ptr<StorePlace> in_sqlite(const std::filesystem::path& data) 
     return std::make_unique<SqlitePlace>(data);
 }
 
+inline std::unique_ptr<StorePlace> in_postgres(const std::filesystem::path& data) {
+    return std::make_unique<PostgresPlace>(data);
+}
+
 /// A test of code that uses any store.
 class WithStore : public testing::Test, protected StoreFixture {
   protected:
@@ -165,7 +191,13 @@ class StoreTest : public testing::TestWithParam<StoreKind>, protected StoreFixtu
     StoreTest() : StoreFixture(GetParam().make) {}
 };
 
-inline const auto every_store = testing::Values(StoreKind{"Sqlite", in_sqlite}, StoreKind{"Memory", in_memory});
+/// Without a server, those of PostgreSQL are missing.
+inline std::vector<StoreKind> every_store_here() {
+    std::vector<StoreKind> kinds = {{"Sqlite", in_sqlite}, {"Memory", in_memory}};
+    if (has_postgres()) kinds.push_back({"Postgres", in_postgres});
+    return kinds;
+}
+inline const auto every_store = testing::ValuesIn(every_store_here());
 
 inline std::string store_name(const testing::TestParamInfo<StoreKind>& kind) {
     return kind.param.name;

@@ -15,11 +15,11 @@
 #include "renderer/params/json_text.h"
 #include "renderer/pictures/blob_sink.h"
 #include "renderer/report/report.h"
-#include "server/archive/content_folder.h"
 #include "server/cli/rendering/commands.h"
 #include "server/cli/rendering/failure.h"
 #include "server/cli/rendering/rendering.h"
 #include "server/cli/rendering/sandbox_option.h"
+#include "server/storage/content_folder.h"
 
 namespace sheer::cli {
 

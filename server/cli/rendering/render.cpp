@@ -48,6 +48,7 @@ int probe(gl::Context& context) {
     const Image read = target.read();
     context.check("the probe");
     if (quantize(read).rgb != std::vector<std::uint8_t>{0, 255, 0}) throw RenderError("the probe's pixel is not green");
+    say({{"renderer", describe_device(context).info.renderer}});
     return exit_ok;
 }
 

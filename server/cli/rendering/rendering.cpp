@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "renderer/core/sha256.h"
-#include "server/archive/content_folder.h"
-#include "server/archive/data_folder.h"
 #include "server/jobs/limits.h"
+#include "server/storage/content_folder.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer::cli {
 

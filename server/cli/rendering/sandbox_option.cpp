@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "server/archive/data_folder.h"
+#include "server/storage/data_folder.h"
 
 namespace sheer::cli {
 

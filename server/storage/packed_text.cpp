@@ -1,4 +1,4 @@
-#include "server/archive/packed_text.h"
+#include "server/storage/packed_text.h"
 
 #include <zlib.h>
 
