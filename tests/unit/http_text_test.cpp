@@ -42,7 +42,7 @@ TEST(HttpText, HostNames) {
     EXPECT_EQ(host_name("LocalHost:8080"), "localhost");
     EXPECT_EQ(host_name("127.0.0.1"), "127.0.0.1");
     EXPECT_EQ(host_name("[::1]:8080"), "[::1]");
-    EXPECT_EQ(host_name("[::1"), "");
+    EXPECT_EQ(host_name("[::1"), "[::1");
     EXPECT_EQ(host_name(""), "");
 }
 

@@ -156,7 +156,7 @@ TEST(Spec, AMethodMayHaveALookOfItsOwn) {
     const Spec spec = parse_spec(document);
     EXPECT_EQ(spec.methods[0].look, json::object());
     EXPECT_EQ(spec.methods[1].look, json({{"shading", {{"glsl", "return tint;"}}}}));
-    EXPECT_EQ(spec.methods[2].look, json({{"texture", {{"image", "smoke"}, {"size", 64}}}}))
+    EXPECT_EQ(spec.methods[2].look, json({{"texture", {{"coverage_alpha", 0.0}, {"image", "smoke"}, {"size", 64}}}}))
         << "what it does not say is the scene's";
     EXPECT_EQ(spec.methods[1].parameters, spec.methods[0].parameters);
     EXPECT_EQ(spec.normalised["methods"][1]["shading"]["glsl"], "return tint;");

@@ -263,7 +263,7 @@ TEST(Frontier, LeastMemoryIsAnAxisOfItsOwn) {
     EXPECT_EQ(two["least_memory_under"][0],
               json({{"error", 0.01}, {"method", "b2f"}, {"tied", {"x"}}, {"memory_bytes", 3 << 20}}));
     EXPECT_EQ(two["least_memory_under"][1]["method"], "y");
-    EXPECT_EQ(two["sentences"].back(), "Least memory under a mean FLIP error of 0.05: y, 1.0 MiB.");
+    EXPECT_EQ(two["sentences"].back(), "Least memory under a mean FLIP error of 0.05: y, 1 MiB.");
 }
 
 TEST(Frontier, CallsOnlyResolvedMethodsFastest) {
