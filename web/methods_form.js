@@ -18,21 +18,22 @@ export function parameter_fields({ parameters }, path, model) {
   );
 }
 
+function bytes_text(bytes) {
+  if (!bytes) return "depends on the scene";
+  const of_formats = [...new Set([bytes.rgba8, bytes.rgba16f, bytes.rgba32f])];
+  if (of_formats.length === 1) return `${of_formats[0]} bytes per pixel`;
+  return `${bytes.rgba8}, ${bytes.rgba16f} and ${bytes.rgba32f} bytes per pixel of rgba8, rgba16f and rgba32f`;
+}
+
 /** What a method is and what it costs, folded away. */
 function about(method) {
-  const bytes = method.bytes_per_px;
   const rows = [
     ["From", method.paper],
     ["Good at", method.good_at],
     ["Bad at", method.bad_at],
     ["Passes", method.passes],
     ["Memory", method.memory],
-    [
-      "By default",
-      bytes
-        ? `${bytes.rgba8}, ${bytes.rgba16f} and ${bytes.rgba32f} bytes per pixel of rgba8, rgba16f and rgba32f`
-        : "depends on the scene",
-    ],
+    ["By default", bytes_text(method.bytes_per_px)],
     ["Needs", method.needs || "nothing more than blending and a depth test"],
     ["Sorts", method.needs_sorting ? "yes" : "no"],
   ];

@@ -50,6 +50,23 @@ export function point_text(point, spec = {}) {
     .join(", ");
 }
 
+/** Fields that are named alike, such as the passes of several methods, as one: [[name, pointers]]. */
+function alike(fields, spec) {
+  if (fields.length < 3) return fields.map((field) => [field_name(field, spec), [field]]);
+  const named = new Map();
+  for (const field of fields) {
+    const name = parts_of(field).at(-1).replaceAll("_", " ");
+    named.set(name, [...(named.get(name) ?? []), field]);
+  }
+  return [...named];
+}
+
+/** The different values that a point gives these fields; "" for none. */
+function values_at(point, pointers, index) {
+  const given = pointers.filter((pointer) => pointer in point);
+  return [...new Set(given.map((pointer) => stop_text(point[pointer], index)))].join("/");
+}
+
 /**
  * The axes of `spec.sweep`: {name, field, points, stops}. `points` are objects of values by pointer; each stop is
  * {value, text}; `value` is the value of the field, `field` its pointer; both are undefined if points set several.
@@ -59,18 +76,20 @@ export function axes_of(spec) {
   return sweep.map((axis) => {
     const points = axis.points ?? axis.values.map((value) => ({ [axis.pointer]: value }));
     const fields = [...new Set(points.flatMap((point) => Object.keys(point)))];
-    const names = fields.map((field) => field_name(field, spec));
+    const named = alike(fields, spec);
     const single = fields.length === 1;
     const stop = (point, index) =>
       single
         ? { value: point[fields[0]], text: stop_text(point[fields[0]], index) }
         : {
             value: undefined,
-            text: Object.values(point)
-              .map((value) => stop_text(value, index))
+            text: named
+              .map(([, pointers]) => values_at(point, pointers, index))
+              .filter((text) => text !== "")
               .join(", "),
           };
-    return { name: names.join(", "), field: single ? fields[0] : undefined, points, stops: points.map(stop) };
+    const name = named.map(([one]) => one).join(", ");
+    return { name, field: single ? fields[0] : undefined, points, stops: points.map(stop) };
   });
 }
 

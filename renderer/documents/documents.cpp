@@ -98,9 +98,10 @@ void add_rows(std::string& rows, const json& fields, const std::string& pointer)
 std::string bytes_text(const json& method) {
     const auto bytes = method.find("bytes_per_px");
     if (bytes == method.end()) return "depends on the scene";
-    return fmt::format("{:g}, {:g} and {:g} bytes per pixel of rgba8, rgba16f and rgba32f",
-                       bytes->at("rgba8").get<double>(), bytes->at("rgba16f").get<double>(),
-                       bytes->at("rgba32f").get<double>());
+    const auto rgba8 = bytes->at("rgba8").get<double>(), rgba16f = bytes->at("rgba16f").get<double>(),
+               rgba32f = bytes->at("rgba32f").get<double>();
+    if (rgba8 == rgba16f && rgba16f == rgba32f) return fmt::format("{:g} bytes per pixel", rgba8);
+    return fmt::format("{:g}, {:g} and {:g} bytes per pixel of rgba8, rgba16f and rgba32f", rgba8, rgba16f, rgba32f);
 }
 
 std::string method_section(const json& method) {

@@ -111,6 +111,20 @@ test("axes hold single values, or points of several fields", () => {
   assert.deepEqual(axes_of({}), []);
 });
 
+test("fields of several methods that are called alike are named once", () => {
+  const fields = ["/methods/0/passes", "/methods/1/passes", "/methods/2/frames"];
+  const point = (...values) => Object.fromEntries(fields.map((field, index) => [field, values[index]]));
+  const [axis] = axes_of({
+    methods: ["stochastic", "stochastic", "hashed_alpha"],
+    sweep: [{ points: [point(1, 1, 4), point(4, 8, 16)] }],
+  });
+  assert.equal(axis.name, "passes, frames");
+  assert.deepEqual(
+    axis.stops.map((stop) => stop.text),
+    ["1, 4", "4/8, 16"],
+  );
+});
+
 /** A run whose method took `median` ms. */
 const run = (count, shading, median) => ({
   point: { "/scene/count": count, ...shading },
