@@ -182,7 +182,7 @@ page_test("every number of every method has the range of the schema", { expected
   // A method's own texture is only in the JSON of a spec, which the form keeps.
   const expected = methods
     .flatMap(({ id }, index) => numbers_in(variant(root.properties.methods.items, "id", id), `/methods/${index}`))
-    .filter((pointer) => !pointer.endsWith("/texture/size"));
+    .filter((pointer) => !pointer.includes("/texture/"));
   assert.deepEqual([...new Set(seen)].sort(), expected.sort());
 });
 
