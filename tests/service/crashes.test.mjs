@@ -53,7 +53,7 @@ test("a worker that is killed takes its renderer along, and its job goes to the 
   }));
 
 test("a worker that hangs loses its job", () =>
-  with_service({ workers: 2, jobs: { lease_s: 1, heartbeat_s: 0.2 } }, async (service) => {
+  with_service({ workers: 2, jobs: { lease_s: 4, heartbeat_s: 0.4 } }, async (service) => {
     const { id, renderer } = await running_job(service, 2);
     const busy = service.worker_of(renderer);
     process.kill(busy, "SIGSTOP");
