@@ -164,7 +164,7 @@ std::string_view Rows::bytes(int row, int column) const {
     return raw(row, column);
 }
 
-Connection::Connection(const Address& address) : m_address(address), m_connection(nullptr, PQfinish) {
+Connection::Connection(Address address) : m_address(std::move(address)), m_connection(nullptr, PQfinish) {
     std::vector<const char*> names, values;
     const auto add = [&](const char* name, const char* value) {
         names.push_back(name);

@@ -58,7 +58,7 @@ class Rows {
 class Connection {
   public:
     /// Throws StoreUnreachable.
-    explicit Connection(const Address& address);
+    explicit Connection(Address address);
 
     /// One statement; $1, $2, ... are its values. Throws StoreUnreachable if the connection is lost, Conflict,
     /// StoreFull, and StoreError.
