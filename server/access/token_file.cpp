@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -53,6 +54,14 @@ json json_of(const Token& token) {
             {"created_ms", token.created_ms}};
 }
 
+/// If root changes the tokens of a service that runs as another user, that user must still be able to read them.
+void give_to_owner_of_folder(const fs::path& file) {
+    struct stat folder {};
+    if (geteuid() != 0 || stat(fs::absolute(file).parent_path().c_str(), &folder) != 0) return;
+    if (chown(file.c_str(), folder.st_uid, folder.st_gid) != 0)
+        throw TokenError(fmt::format("{}: {}", file.string(), std::generic_category().message(errno)));
+}
+
 }  // namespace
 
 std::vector<Token> TokenFile::read() const {
@@ -96,6 +105,7 @@ void TokenFile::change(const std::function<void(std::vector<Token>&)>& edit) {
     try {
         write_file(next, json{{"tokens", all}}.dump(1) + "\n");
         fs::permissions(next, fs::perms::owner_read | fs::perms::owner_write);
+        give_to_owner_of_folder(next);
         fs::rename(next, m_path);
     } catch (const std::exception& error) {
         throw TokenError(error.what());
