@@ -193,10 +193,23 @@ Section http_settings() {
 
 Section jobs_settings() {
     const auto of_leases = [](auto member) { return in(&ServiceConfig::leases, member); };
+    const auto of_job = [](auto member) {
+        return [member](ServiceConfig & config) -> auto& {
+            return config.answers.job.*member;
+        };
+    };
+    using http::JobLimits;
     return {"jobs",
-            "the queue",
+            "the queue, and what one comparison may ask for",
             {integer("max_queued", "jobs that may wait", "", 0, 1'000'000,
                      in(&ServiceConfig::answers, &http::AnswerLimits::max_queued)),
+             integer("max_pixels", "pixels of a picture", "", 1, 4096.0 * 4096, of_job(&JobLimits::max_pixels)),
+             integer("max_methods", "methods of a comparison", "", 1, 64, of_job(&JobLimits::max_methods)),
+             integer("max_points", "points of a sweep", "", 1, 256, of_job(&JobLimits::max_points)),
+             integer("max_cost",
+                     "megapixels that a comparison draws: width x height of a picture, for each method and the "
+                     "reference, each round and each point",
+                     "Mpx", 1, 1e12, of_job(&JobLimits::max_cost)),
              seconds("lease_s", "how long a worker without a sign of life keeps its job; longer than `heartbeat_s`",
                      day_s, of_leases(&LeaseRules::lease_ms)),
              seconds("heartbeat_s", "time between two signs of life", day_s, of_leases(&LeaseRules::heartbeat_ms)),

@@ -54,9 +54,10 @@ AssetRule asset_rule(Service& service) {
 /// A sweep may have a thousand shaders; those beyond this are compiled when they are rendered.
 constexpr std::size_t max_compiled_shaders = 16;
 
-/// Throws SpecError with every wrong field, and if the user's own shading does not compile.
+/// Throws SpecError with every wrong field, if it asks for too much, and if the user's own shading does not compile.
 Spec checked_spec(Service& service, const nlohmann::json& document) {
     Spec spec = parse_spec(document, asset_rule(service));
+    require_within(service.limits.job, spec);
     if (!spec.against.empty() && !spec.against.starts_with("baseline:")) {
         const auto before = service.store.reports().find(spec.against);
         if (!before || before->status != Status::done)

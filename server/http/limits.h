@@ -2,6 +2,8 @@
 #include <chrono>
 #include <cstdint>
 
+#include "server/http/job_limits.h"
+
 namespace sheer::http {
 
 // The fields of the configuration describe each limit and its range: server/cli/service_config.cpp.
@@ -25,6 +27,7 @@ struct Limits {
 /// What one request may ask for.
 struct AnswerLimits {
     std::size_t max_queued = 100;
+    JobLimits job;
     std::uint64_t max_asset_bytes = 64 << 20;
     std::chrono::seconds max_wait{300};
     std::chrono::seconds ready_within{90};
