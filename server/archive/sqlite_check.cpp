@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/sha256.h"
+#include "server/archive/facet_bits.h"
 #include "server/archive/report_facts.h"
 #include "server/archive/sqlite_functions.h"
 #include "server/archive/sqlite_index.h"
@@ -143,6 +144,10 @@ void SqliteCheck::check_index() {
                       "SELECT facet FROM facets f WHERE reports <> (SELECT count(*) FROM report_facets WHERE facet = "
                       "f.id)")) {
             add(Kind::damage, fmt::format("the count of the reports with {} is wrong", words_of(facet).front()));
+            m_index_is_wrong = true;
+        }
+        if (!facet_bits_are_right(database)) {
+            add(Kind::damage, "the bits of the facets do not agree with the reports");
             m_index_is_wrong = true;
         }
         constexpr Status all[] = {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled};
