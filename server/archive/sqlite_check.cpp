@@ -35,9 +35,11 @@ std::vector<std::string> texts_of(SQLite::Database& database, const std::string&
 /// The tables, indexes, views and triggers, except those of SQLite itself.
 std::map<std::string, std::string> schema_of_database(SQLite::Database& database) {
     std::map<std::string, std::string> schema;
+    // A text that a flipped bit has made a blob reads the same.
     SQLite::Statement rows(database,
-                           "SELECT type || ' ' || name, tbl_name || ' ' || coalesce(sql, '') FROM sqlite_schema "
-                           "WHERE name NOT LIKE 'sqlite\\_stat%' ESCAPE '\\'");
+                           "SELECT type || ' ' || name, types || ' ' || tbl_name || ' ' || coalesce(sql, '') "
+                           "FROM (SELECT *, typeof(type) || typeof(name) || typeof(tbl_name) || typeof(sql) AS "
+                           "types FROM sqlite_schema) WHERE name NOT LIKE 'sqlite\\_stat%' ESCAPE '\\'");
     while (rows.executeStep()) schema[rows.getColumn(0).getString()] = rows.getColumn(1).getString();
     return schema;
 }
