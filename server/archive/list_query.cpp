@@ -9,8 +9,6 @@ namespace sheer {
 
 namespace {
 
-/// Reports of one facet whose words are compared one by one in less time than FTS5 needs for frequent words.
-constexpr std::int64_t few_reports = 20'000;
 /// Longer beginnings of words are not in the index (search.sql).
 constexpr std::size_t longest_indexed_bytes = 8;
 
@@ -35,11 +33,10 @@ void ListSql::bind(SQLite::Statement& statement) const {
     for (const auto& value : values) std::visit([&](const auto& each) { statement.bind(++index, each); }, value);
 }
 
-ListQuery::ListQuery(SQLite::Database& database, const ListFilter& filter)
-    : m_database(database), m_limit(filter.limit), m_words(words_of(filter.q)) {
+ListQuery::ListQuery(SQLite::Database& database, const ListFilter& filter, std::size_t few)
+    : m_database(database), m_limit(filter.limit), m_few(few), m_words(words_of(filter.q)) {
     find_facets(filter);
     if (!filter.q.empty() && m_words.empty()) m_matches_nothing = true;
-    m_by_words = !m_words.empty() && m_rarest > few_reports;
     if (filter.since_ms) m_times.from = place_at(*filter.since_ms);
     if (filter.until_ms) m_times.before = place_at(*filter.until_ms + 1);
     if (!filter.before_id.empty()) m_before_place = place_before(database, filter.before_id);
@@ -62,47 +59,79 @@ void ListQuery::find_facets(const ListFilter& filter) {
     if (!found.empty()) m_rarest = found.front().first;
 }
 
-ListSql ListQuery::matching(Range places) const {
+ListSql ListQuery::statement(PlaceRange range) const {
     ListSql sql;
-    const bool by_facet = !m_by_words && !m_facets.empty();
-    std::string place = "d.place";
-    if (m_by_words) {
-        place = "d.rowid";
-        sql.text = "SELECT d.rowid FROM search_words d WHERE search_words MATCH ?";
+    std::string place = "place";
+    if (!m_words.empty()) {
+        place = "rowid";
+        sql.text = "SELECT rowid FROM search_words WHERE search_words MATCH ?";
         sql.values.emplace_back(fts_query(m_words));
-    } else if (by_facet) {
-        sql.text = "SELECT d.place FROM report_facets d WHERE d.facet = ?";
+    } else if (!m_facets.empty()) {
+        sql.text = "SELECT place FROM report_facets WHERE facet = ?";
         sql.values.emplace_back(m_facets.front());
     } else {
-        sql.text = "SELECT d.place FROM search_lines d WHERE 1";
+        sql.text = "SELECT place FROM search_lines WHERE 1";
     }
-    sql.text += " AND " + place + " >= ? AND " + place + " < ?";
-    sql.values.emplace_back(places.from);
-    sql.values.emplace_back(m_matches_nothing ? places.from : places.before);
-    for (std::size_t i = by_facet ? 1 : 0; i < m_facets.size(); ++i) {
-        sql.text += " AND EXISTS (SELECT 1 FROM report_facets f WHERE f.facet = ? AND f.place = " + place + ")";
-        sql.values.emplace_back(m_facets[i]);
-    }
-    for (const std::string& word : m_words) {
-        if (m_by_words && word.size() <= longest_indexed_bytes) continue;
-        sql.text += " AND (SELECT instr(l.words, ?) FROM search_lines l WHERE l.place = " + place + ") > 0";
-        sql.values.emplace_back(" " + word);
-    }
+    sql.text += " AND " + place + " >= ? AND " + place + " < ? ORDER BY " + place + " DESC";
+    sql.values.emplace_back(range.from);
+    sql.values.emplace_back(range.before);
     return sql;
 }
 
-ListSql ListQuery::newest(Range places, std::int64_t limit) const {
-    ListSql sql = matching(places);
-    sql.text += m_by_words ? " ORDER BY d.rowid DESC LIMIT ?" : " ORDER BY d.place DESC LIMIT ?";
-    sql.values.emplace_back(limit);
-    return sql;
+bool ListQuery::has_words(SQLite::Statement& line, std::int64_t place) const {
+    line.bind(1, place);
+    const std::string words = line.executeStep() ? line.getColumn(0).getString() : "";
+    line.reset();
+    return std::ranges::all_of(m_words,
+                               [&](const std::string& word) { return words.find(" " + word) != std::string::npos; });
 }
 
-ListSql ListQuery::page() const {
-    return newest({m_times.from, std::min(m_times.before, m_before_place)}, std::int64_t{m_limit} + 1);
+std::vector<std::int64_t> ListQuery::newest_with_words(PlaceRange range, std::size_t limit) const {
+    std::vector<std::int64_t> found;
+    SQLite::Statement line(m_database, "SELECT words FROM search_lines WHERE place = ?");
+    std::vector<std::int64_t> candidates;
+    if (!m_facets.empty()) {
+        candidates = newest_with_all(m_database, m_facets, range, SIZE_MAX);
+        if (candidates.size() <= m_few) {
+            for (const std::int64_t place : candidates)
+                if (found.size() < limit && has_words(line, place)) found.push_back(place);
+            return found;
+        }
+    }
+    const bool is_indexed =
+        std::ranges::all_of(m_words, [](const std::string& word) { return word.size() <= longest_indexed_bytes; });
+    const ListSql sql = statement(range);
+    SQLite::Statement rows(m_database, sql.text);
+    sql.bind(rows);
+    for (auto next = candidates.begin(); found.size() < limit && rows.executeStep();) {
+        const std::int64_t place = rows.getColumn(0).getInt64();
+        if (!m_facets.empty()) {
+            while (next != candidates.end() && *next > place) ++next;
+            if (next == candidates.end()) break;
+            if (*next != place) continue;
+        }
+        if (is_indexed || has_words(line, place)) found.push_back(place);
+    }
+    return found;
 }
 
-ListSql ListQuery::first_places() const {
+std::vector<std::int64_t> ListQuery::newest(PlaceRange range, std::size_t limit) const {
+    if (m_matches_nothing) return {};
+    if (!m_words.empty()) return newest_with_words(range, limit);
+    if (m_facets.size() > 1) return newest_with_all(m_database, m_facets, range, limit);
+    const ListSql sql = statement(range);
+    SQLite::Statement rows(m_database, sql.text);
+    sql.bind(rows);
+    std::vector<std::int64_t> places;
+    while (places.size() < limit && rows.executeStep()) places.push_back(rows.getColumn(0).getInt64());
+    return places;
+}
+
+std::vector<std::int64_t> ListQuery::page() const {
+    return newest({m_times.from, std::min(m_times.before, m_before_place)}, static_cast<std::size_t>(m_limit) + 1);
+}
+
+std::vector<std::int64_t> ListQuery::first_places() const {
     return newest(m_times, max_exact_count + 1);
 }
 
@@ -111,22 +140,9 @@ bool ListQuery::counts_by_reading() const {
     return m_matches_nothing || !m_words.empty() || !is_at_any_time || m_facets.size() > 1;
 }
 
-ListSql ListQuery::counting() const {
-    ListSql sql = matching(m_times);
-    sql.text = "SELECT count(*) FROM (" + sql.text + " LIMIT ?)";
-    sql.values.emplace_back(max_exact_count + 1);
-    return sql;
-}
-
-std::pair<std::int64_t, bool> ListQuery::count() const {
-    if (!counts_by_reading()) {
-        if (m_facets.size() == 1) return {m_rarest, true};
-        return {m_database.execAndGet("SELECT sum(reports) FROM facets WHERE id <= 5").getInt64(), true};
-    }
-    SQLite::Statement row(m_database, counting().text);
-    counting().bind(row);
-    const std::int64_t found = row.executeStep() ? row.getColumn(0).getInt64() : 0;
-    return {std::min(found, max_exact_count), found <= max_exact_count};
+std::int64_t ListQuery::known_count() const {
+    if (m_facets.size() == 1) return m_rarest;
+    return m_database.execAndGet("SELECT sum(reports) FROM facets WHERE id <= 5").getInt64();
 }
 
 }  // namespace sheer

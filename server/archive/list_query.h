@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
+#include "server/archive/facet_bits.h"
 #include "server/jobs/report_archive.h"
 
 namespace sheer {
@@ -19,41 +19,39 @@ struct ListSql {
     void bind(SQLite::Statement& statement) const;
 };
 
-/// How the reports of a filter are found: along the places, newest first, of the rarest of the wanted facets, or of the
-/// wanted words if they are likely to be rarer, or of all reports; each is looked up in the other facets. No statement
-/// reads more than that one range, and none sorts.
+/// How the reports of a filter are found. Those of one facet, of words, or of neither are a range of an index, newest
+/// first. Those of several facets are found by the facets' bits (facet_bits.h). With words as well, these are compared
+/// one by one if they are few, and otherwise with what the index of words has, both newest first. No statement sorts.
 class ListQuery {
   public:
-    ListQuery(SQLite::Database& database, const ListFilter& filter);
+    /// The words of `few` reports are compared one by one in less time than FTS5 needs for two frequent words.
+    ListQuery(SQLite::Database& database, const ListFilter& filter, std::size_t few = 2'000);
 
     /// The places of the page's reports, and one more if there is one.
-    ListSql page() const;
-    /// Whether count() reads the reports, one by one.
+    std::vector<std::int64_t> page() const;
+    /// Whether the reports have to be found in order to be counted.
     bool counts_by_reading() const;
     /// The places of max_exact_count reports, and one more if there is one, whatever `before_id`.
-    ListSql first_places() const;
-    /// How many match, up to max_exact_count, and whether these are all.
-    std::pair<std::int64_t, bool> count() const;
-    /// The statement with which count() counts.
-    ListSql counting() const;
+    std::vector<std::int64_t> first_places() const;
+    /// How many match, if !counts_by_reading().
+    std::int64_t known_count() const;
+    /// The statement that finds places: all that match, or, if there are facets and something else, those of the words.
+    ListSql statement(PlaceRange range) const;
 
   private:
-    struct Range {
-        std::int64_t from = 0, before = INT64_MAX;
-    };
-
-    ListSql matching(Range places) const;
-    ListSql newest(Range places, std::int64_t limit) const;
+    std::vector<std::int64_t> newest(PlaceRange range, std::size_t limit) const;
+    std::vector<std::int64_t> newest_with_words(PlaceRange range, std::size_t limit) const;
+    bool has_words(SQLite::Statement& line, std::int64_t place) const;
     void find_facets(const ListFilter& filter);
 
     SQLite::Database& m_database;
     const int m_limit;
+    const std::size_t m_few;
     bool m_matches_nothing = false;
-    bool m_by_words = false;             ///< along the words, not along a facet
     std::vector<std::int64_t> m_facets;  ///< the rarest first
-    std::int64_t m_rarest = INT64_MAX;   ///< how many reports have m_facets[0]
+    std::int64_t m_rarest = 0;           ///< how many reports have m_facets[0]
     std::vector<std::string> m_words;
-    Range m_times;
+    PlaceRange m_times;
     std::int64_t m_before_place = INT64_MAX;
 };
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/sha256.h"
+#include "server/archive/facet_bits.h"
 #include "server/archive/report_facts.h"
 #include "server/archive/sqlite_functions.h"
 #include "server/archive/sqlite_index.h"
@@ -34,9 +35,11 @@ std::vector<std::string> texts_of(SQLite::Database& database, const std::string&
 /// The tables, indexes, views and triggers, except those of SQLite itself.
 std::map<std::string, std::string> schema_of_database(SQLite::Database& database) {
     std::map<std::string, std::string> schema;
+    // A text that a flipped bit has made a blob reads the same.
     SQLite::Statement rows(database,
-                           "SELECT type || ' ' || name, tbl_name || ' ' || coalesce(sql, '') FROM sqlite_schema "
-                           "WHERE name NOT LIKE 'sqlite\\_stat%' ESCAPE '\\'");
+                           "SELECT type || ' ' || name, types || ' ' || tbl_name || ' ' || coalesce(sql, '') "
+                           "FROM (SELECT *, typeof(type) || typeof(name) || typeof(tbl_name) || typeof(sql) AS "
+                           "types FROM sqlite_schema) WHERE name NOT LIKE 'sqlite\\_stat%' ESCAPE '\\'");
     while (rows.executeStep()) schema[rows.getColumn(0).getString()] = rows.getColumn(1).getString();
     return schema;
 }
@@ -143,6 +146,10 @@ void SqliteCheck::check_index() {
                       "SELECT facet FROM facets f WHERE reports <> (SELECT count(*) FROM report_facets WHERE facet = "
                       "f.id)")) {
             add(Kind::damage, fmt::format("the count of the reports with {} is wrong", words_of(facet).front()));
+            m_index_is_wrong = true;
+        }
+        if (!facet_bits_are_right(database)) {
+            add(Kind::damage, "the bits of the facets do not agree with the reports");
             m_index_is_wrong = true;
         }
         constexpr Status all[] = {Status::queued, Status::running, Status::done, Status::failed, Status::cancelled};

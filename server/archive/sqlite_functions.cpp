@@ -10,6 +10,7 @@
 #include <string>
 
 #include "renderer/core/sha256.h"
+#include "server/archive/facet_bits.h"
 #include "server/storage/packed_text.h"
 
 namespace sheer {
@@ -64,6 +65,39 @@ void seal(sqlite3_context* context, int count, sqlite3_value** values) {
     }
 }
 
+void give_blob(sqlite3_context* context, const std::string& bytes) {
+    sqlite3_result_blob64(context, bytes.data(), bytes.size(), SQLITE_TRANSIENT);
+}
+
+std::size_t slot_in(sqlite3_value* value) {
+    return static_cast<std::size_t>(sqlite3_value_int64(value)) % slots_in_block;
+}
+
+void with_place(sqlite3_context* context, int, sqlite3_value** values) {
+    BlockPlaces places = places_in(bytes_of(values[0]));
+    places[slot_in(values[1])] = sqlite3_value_int64(values[2]);
+    give_blob(context, block_bytes(places));
+}
+
+void with_bit(sqlite3_context* context, int, sqlite3_value** values) {
+    BlockBits bits = bits_in(bytes_of(values[0]));
+    const std::size_t slot = slot_in(values[1]);
+    const std::uint64_t bit = std::uint64_t{1} << (slot % 64);
+    if (sqlite3_value_int(values[2]) != 0)
+        bits[slot / 64] |= bit;
+    else
+        bits[slot / 64] &= ~bit;
+    give_blob(context, block_bytes(bits));
+}
+
+void give_oldest(sqlite3_context* context, int, sqlite3_value** values) {
+    sqlite3_result_int64(context, span_of(places_in(bytes_of(values[0]))).oldest);
+}
+
+void give_newest(sqlite3_context* context, int, sqlite3_value** values) {
+    sqlite3_result_int64(context, span_of(places_in(bytes_of(values[0]))).newest);
+}
+
 using Function = void (*)(sqlite3_context*, int, sqlite3_value**);
 
 void add(SQLite::Database& database, const char* name, int arguments, Function function) {
@@ -78,6 +112,10 @@ void add_functions(SQLite::Database& database) {
     add(database, "sheer_sha256", 1, of_text<hash>);
     add(database, "sheer_place", 1, of_text<place>);
     add(database, "sheer_seal", -1, seal);
+    add(database, "sheer_with_place", 3, with_place);
+    add(database, "sheer_with_bit", 3, with_bit);
+    add(database, "sheer_oldest", 1, give_oldest);
+    add(database, "sheer_newest", 1, give_newest);
 }
 
 std::int64_t place_of(std::string_view id) {

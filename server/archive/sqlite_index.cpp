@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "server/archive/facet_bits.h"
 #include "server/archive/sqlite_functions.h"
 #include "server/archive/sqlite_steps.h"
 #include "server/jobs/search.h"
@@ -23,7 +24,7 @@ std::int64_t place_in(SQLite::Database& database, const std::string& id) {
 
 std::int64_t free_place(SQLite::Database& database, const std::string& id) {
     SQLite::Statement row(database, "SELECT 1 FROM search_lines WHERE place = ?");
-    for (std::int64_t place = place_of(id);; ++place) {
+    for (auto place = std::max<std::int64_t>(place_of(id), 1);; ++place) {
         row.bind(1, place);
         const bool is_taken = row.executeStep();
         row.reset();
@@ -71,7 +72,8 @@ std::string device_in(SQLite::Statement& row, const std::string& id) {
 
 void add_to_index(SQLite::Database& database, const IndexedReport& report) {
     const std::int64_t place = free_place(database, report.id);
-    SQLite::Statement line(database, "INSERT INTO search_lines VALUES (?, ?, ?, ?)");
+    SQLite::Statement line(database,
+                           "INSERT INTO search_lines SELECT ?, ?, ?, ?, coalesce(max(slot), -1) + 1 FROM search_lines");
     SQLite::bind(line, place, report.id, report.device, line_words(report.facets));
     line.exec();
     add_facets(database, place, all_facet_texts(report));
@@ -117,6 +119,7 @@ bool is_indexed(SQLite::Database& database, const IndexedReport& report) {
 
 void rebuild_index(SQLite::Database& database) {
     database.exec("DELETE FROM search_lines; DELETE FROM report_facets; UPDATE facets SET reports = 0");
+    rebuild_facet_bits(database);
     database.exec("INSERT INTO search_words (search_words) VALUES ('rebuild')");
     std::vector<std::string> ids;
     SQLite::Statement rows(database, "SELECT id FROM reports ORDER BY id");

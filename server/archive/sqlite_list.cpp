@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "server/archive/list_query.h"
 #include "server/archive/sqlite_reports.h"
@@ -44,14 +43,6 @@ ReportSummary summary_of(SQLite::Database& database, SQLite::Statement& row) {
     return summary;
 }
 
-std::vector<std::int64_t> places_of(SQLite::Database& database, const ListSql& sql) {
-    SQLite::Statement rows(database, sql.text);
-    sql.bind(rows);
-    std::vector<std::int64_t> places;
-    while (rows.executeStep()) places.push_back(rows.getColumn(0).getInt64());
-    return places;
-}
-
 }  // namespace
 
 ReportPage SqliteReports::list(const ListFilter& filter) {
@@ -61,15 +52,15 @@ ReportPage SqliteReports::list(const ListFilter& filter) {
         const ListQuery query(database, filter);
         ReportPage page;
         std::vector<std::int64_t> places;
-        if (query.counts_by_reading() && filter.before_id.empty()) {
-            // The first page is the begin of what is counted.
-            places = places_of(database, query.first_places());
+        if (query.counts_by_reading()) {
+            places = query.first_places();
             page.count_is_exact = static_cast<std::int64_t>(places.size()) <= max_exact_count;
             page.count = std::min(static_cast<std::int64_t>(places.size()), max_exact_count);
         } else {
-            std::tie(page.count, page.count_is_exact) = query.count();
-            places = places_of(database, query.page());
+            page.count = query.known_count();
         }
+        // The first page is the begin of what is counted.
+        if (!query.counts_by_reading() || !filter.before_id.empty()) places = query.page();
         page.more = places.size() > static_cast<std::size_t>(filter.limit);
         if (page.more) places.resize(static_cast<std::size_t>(filter.limit));
         SQLite::Statement line(

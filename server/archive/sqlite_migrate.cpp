@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "embedded_server_files.h"
+#include "server/archive/facet_bits.h"
 #include "server/archive/sqlite_index.h"
 #include "server/archive/sqlite_open.h"
 #include "server/jobs/store_errors.h"
@@ -23,8 +24,13 @@ struct Migration {
     void (*then)(SQLite::Database& database, const DataFolder& folder) = nullptr;
 };
 
+/// The index of words and facets is written as version 11 has it, so it is made for archives of versions before 6 here.
 void index_all(SQLite::Database& database, const DataFolder&) {
-    rebuild_index(database);
+    const bool is_there = database.execAndGet("SELECT EXISTS (SELECT 1 FROM search_lines)").getInt() != 0;
+    if (is_there)
+        rebuild_facet_bits(database);
+    else
+        rebuild_index(database);
 }
 
 void measure_blobs(SQLite::Database& database, const DataFolder& folder) {
@@ -40,16 +46,17 @@ void measure_blobs(SQLite::Database& database, const DataFolder& folder) {
     }
 }
 
-constexpr std::array<Migration, 10> migrations = {{{"schema.sql"},
+constexpr std::array<Migration, 11> migrations = {{{"schema.sql"},
                                                    {"assets.sql"},
                                                    {"retries.sql"},
                                                    {"baselines.sql"},
                                                    {"documents.sql"},
-                                                   {"search.sql", index_all},
+                                                   {"search.sql"},
                                                    {"care.sql", measure_blobs},
                                                    {"trends.sql"},
                                                    {"metrics.sql"},
-                                                   {"workers.sql"}}};
+                                                   {"workers.sql"},
+                                                   {"facet_bits.sql", index_all}}};
 
 std::string sql_file(const std::string& name) {
     for (const EmbeddedFile& file : embedded_server_files())

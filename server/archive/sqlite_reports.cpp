@@ -1,5 +1,7 @@
 #include "server/archive/sqlite_reports.h"
 
+#include <fmt/format.h>
+
 #include "server/archive/sqlite_steps.h"
 
 namespace sheer {
@@ -9,6 +11,15 @@ namespace {
 std::optional<std::int64_t> optional_int(const SQLite::Column& column) {
     if (column.isNull()) return std::nullopt;
     return column.getInt64();
+}
+
+/// A damaged index can lead to the row or the text of another report, which is whole by its own hash.
+void require_own_text(SQLite::Database& database, const std::string& id) {
+    SQLite::Statement same(database,
+                           "SELECT 1 FROM report_seals s JOIN sealed_reports r ON r.report_id = s.report_id "
+                           "WHERE s.report_id = ? AND s.sha256 = r.sha256");
+    same.bind(1, id);
+    if (!same.executeStep()) throw DamagedData(fmt::format("report {} is not as it was when it ended", id));
 }
 
 }  // namespace
@@ -31,7 +42,10 @@ std::optional<ReportRecord> SqliteReports::find(const std::string& id) {
         record.spec = row.getColumn(6).getString();
         record.spec_sha256 = row.getColumn(7).getString();
         record.error = error_of(row.getColumn(8), row.getColumn(9));
-        if (record.status == Status::done) record.report = document_in(row.getColumn(10), row.getColumn(11), id);
+        if (record.status == Status::done) {
+            record.report = document_in(row.getColumn(10), row.getColumn(11), id);
+            require_own_text(database, id);
+        }
         return record;
     });
 }

@@ -34,28 +34,28 @@ void add_numbers(SQLite::Database& database, const std::string& report_id, const
     name.exec();
     SQLite::Statement insert(
         database,
-        "INSERT INTO report_numbers SELECT ?1, id, packed, sheer_seal(?1, names, packed) FROM "
-        "(SELECT id, names, sheer_pack(?3) AS packed FROM number_names WHERE names = ?2) WHERE true "
-        "ON CONFLICT DO NOTHING");
+        "INSERT INTO report_numbers SELECT ?1, id, ?3, sheer_seal(?1, names, ?3) FROM number_names "
+        "WHERE names = ?2 ON CONFLICT DO NOTHING");
+    const std::string packed = pack_numbers(numbers.numbers);
     SQLite::bind(insert, report_id, numbers.names);
-    insert.bind(3, numbers.numbers.data(), static_cast<int>(numbers.numbers.size()));
+    insert.bind(3, packed.data(), static_cast<int>(packed.size()));
     insert.exec();
 }
 
 std::vector<TrendReport> SqliteTrends::reports(const ListFilter& filter) {
     return m_archive.read([&](SQLite::Database& database) {
         SQLite::Transaction one_state(database, SQLite::TransactionBehavior::DEFERRED);
-        const ListSql page = ListQuery(database, filter).page();
-        SQLite::Statement places(database, page.text);
-        page.bind(places);
+        std::vector<std::int64_t> places = ListQuery(database, filter).page();
+        if (places.size() > static_cast<std::size_t>(filter.limit))
+            places.resize(static_cast<std::size_t>(filter.limit));
         SQLite::Statement row(database,
                               "SELECT r.id, r.created_ms, n.names, names.names, n.numbers FROM search_lines l JOIN "
                               "reports r ON r.id = l.report_id LEFT JOIN report_numbers n ON n.report_id = r.id "
                               "LEFT JOIN number_names names ON names.id = n.names WHERE l.place = ?");
         std::vector<TrendReport> reports;
         std::map<std::int64_t, std::string> names;
-        while (places.executeStep() && static_cast<int>(reports.size()) < filter.limit) {
-            row.bind(1, places.getColumn(0).getInt64());
+        for (const std::int64_t place : places) {
+            row.bind(1, place);
             if (row.executeStep())
                 reports.push_back({row.getColumn(0).getString(), row.getColumn(1).getInt64(), numbers_in(row, names)});
             row.reset();

@@ -83,7 +83,7 @@ int put_blobs(Connection& connection, const FinishedReport& finished, bool mend)
 }
 
 void add_numbers(Connection& connection, const std::string& report_id, const ReportNumbers& numbers) {
-    const std::string hash = sha256_hex(numbers.names), packed = pack_text(numbers.numbers);
+    const std::string hash = sha256_hex(numbers.names), packed = pack_numbers(numbers.numbers);
     connection.run("INSERT INTO number_names (sha256, names) VALUES ($1, $2) ON CONFLICT DO NOTHING",
                    {hash, numbers.names});
     connection.run(

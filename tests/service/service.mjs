@@ -84,7 +84,7 @@ export const needs_sqlite = STORE ? { skip: "of the archive in a folder" } : {};
 export const needs_postgres = STORE ? {} : { skip: "there is no PostgreSQL server" };
 
 /** The rows that a statement gives, as lines. */
-function ask_server(sql, url = STORE) {
+export function ask_server(sql, url = STORE) {
   return execFileSync("psql", ["-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-d", url, "-c", sql], {
     stdio: ["ignore", "pipe", "inherit"],
     encoding: "utf8",

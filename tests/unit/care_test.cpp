@@ -8,6 +8,7 @@
 #include <random>
 
 #include "server/archive/archive_copy.h"
+#include "server/archive/sqlite_functions.h"
 #include "server/storage/content_folder.h"
 #include "store_fixture.h"
 
@@ -38,6 +39,7 @@ class CareTest : public WithSqlite {
     fs::path blob(const std::string& bytes) const { return m_files.find(sha256_hex(bytes)).value(); }
     void change(const std::string& sql) {
         SQLite::Database database(m_data.database().string(), SQLite::OPEN_READWRITE);
+        add_functions(database);
         database.exec("DROP TRIGGER reports_final; DROP TRIGGER documents_final");
         database.exec(sql);
         database.exec(
@@ -97,6 +99,12 @@ TEST_F(CareTest, EveryRowIsComparedWithWhatItWas) {
                 testing::Contains(HasSubstr("not in the index for searching")));
     EXPECT_THAT(found_after("UPDATE facets SET reports = 7 WHERE id = 3", "UPDATE facets SET reports = 1 WHERE id = 3"),
                 testing::ElementsAre(HasSubstr("the count of the reports with status")));
+    EXPECT_THAT(
+        found_after("UPDATE search_blocks SET newest = newest + 1", "UPDATE search_blocks SET newest = newest - 1"),
+        testing::ElementsAre(HasSubstr("the bits of the facets do not agree")));
+    EXPECT_THAT(found_after("UPDATE facet_bits SET bits = sheer_with_bit(bits, 99, 1) WHERE facet = 3",
+                            "UPDATE facet_bits SET bits = sheer_with_bit(bits, 99, 0) WHERE facet = 3"),
+                testing::ElementsAre(HasSubstr("the bits of the facets do not agree")));
     EXPECT_THAT(found_after("CREATE TABLE stranger (x)", "DROP TABLE stranger"),
                 testing::ElementsAre(HasSubstr("table stranger of the database is not ours")));
     EXPECT_THAT(found_after("UPDATE documents SET packed = cast(packed || x'00' AS BLOB)",

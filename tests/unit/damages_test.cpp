@@ -206,6 +206,7 @@ TEST_F(DamagesTest, EachIsFoundAndNoneIsServed) {
         fs::copy(data, copy, fs::copy_options::recursive);
         const std::string what = damage(copy);
         ++kinds[what.substr(0, what.find_first_of(" ,", what.starts_with("cut") ? 0 : 4))];
+        SCOPED_TRACE("damage " + std::to_string(i) + ": " + what);
         EXPECT_NE(found(copy), "") << "damage " << i << ": " << what;
     }
     for (const auto& [kind, times] : kinds) std::cout << times << " x " << kind << '\n';

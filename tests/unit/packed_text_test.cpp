@@ -18,6 +18,19 @@ TEST(PackedText, IsSmallerThanARepetitiveText) {
     EXPECT_LT(pack_text(std::string(100'000, 'x')).size(), 1000u);
 }
 
+TEST(PackedText, NumbersAreKeptAsTheyAreUnlessCompressingHalvesThem) {
+    std::string hardly;
+    for (std::uint32_t i = 0, state = 1; i < 4'000; ++i, state = state * 1664525 + 1013904223)
+        hardly += static_cast<char>(state >> 24);
+    const std::string packed = pack_numbers(hardly);
+    EXPECT_NE(packed.find(hardly), std::string::npos);
+    EXPECT_EQ(unpack_text(packed, 4'000), hardly);
+    EXPECT_EQ(pack_numbers(std::string(4'000, '\0')), pack_text(std::string(4'000, '\0')));
+    std::string flipped = packed;
+    flipped[2'000] = static_cast<char>(flipped[2'000] ^ 1);
+    EXPECT_THROW(unpack_text(flipped, 4'000), DamagedData);
+}
+
 TEST(PackedText, DamageIsNoticed) {
     const std::string packed = pack_text("a report, a report, a report");
     EXPECT_THROW(unpack_text("", 100), DamagedData);

@@ -31,6 +31,21 @@ TEST_F(SqliteStoreTest, AFinalReportCannotBeChanged) {
     EXPECT_EQ(json::parse(m_reports.find(id)->report)["verdict"], "passed");
 }
 
+TEST_F(SqliteStoreTest, ATextOfAnotherReportIsNotServed) {
+    const std::string one = make_done("one", "a"), two = make_done("two", "b");
+    EXPECT_TRUE(m_reports.find(one));
+    SQLite::Database database(m_data.database().string(), SQLite::OPEN_READWRITE);
+    database.exec("DROP TRIGGER documents_final");
+    const auto move = [&](const std::string& from, const std::string& to) {
+        EXPECT_EQ(database.exec("UPDATE documents SET report_id = '" + to + "' WHERE report_id = '" + from + "'"), 1);
+    };
+    move(one, "kept");
+    move(two, one);
+    move("kept", two);
+    EXPECT_THROW(m_reports.find(one), DamagedData);
+    EXPECT_THROW(m_reports.find(two), DamagedData);
+}
+
 TEST_F(SqliteStoreTest, AnArchiveOfALaterVersionIsLeftAlone) {
     const std::filesystem::path folder = m_folder.path() / "later";
     std::filesystem::create_directories(folder);
