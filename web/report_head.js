@@ -168,3 +168,8 @@ export function report_details(report) {
     ),
   );
 }
+
+/** The report's `error`, a string or a problem object. */
+export function error_text(error) {
+  return typeof error === "string" ? error : (error?.detail ?? error?.title ?? error?.message ?? "Rendering failed");
+}

@@ -7,7 +7,7 @@ import { frontier_section } from "./frontier_view.js";
 import { ImageViewer } from "./image_viewer.js";
 import { note_list } from "./notes.js";
 import { PixelView } from "./pixel_view.js";
-import { facts, reference_text, report_details, report_head } from "./report_head.js";
+import { error_text, facts, reference_text, report_details, report_head } from "./report_head.js";
 import { is_shown, kinds_of, sources_of } from "./report_pictures.js";
 import { difference_table, fragment_table, timing_table } from "./result_tables.js";
 import { suite_section } from "./suite_view.js";
@@ -200,9 +200,4 @@ function first_run(runs) {
   };
   const spreads = runs.map(spread);
   return Math.max(0, spreads.indexOf(Math.max(...spreads)));
-}
-
-/** The report's `error`, a string or a problem object. */
-export function error_text(error) {
-  return typeof error === "string" ? error : (error?.detail ?? error?.title ?? error?.message ?? "Rendering failed");
 }
