@@ -31,14 +31,23 @@ async function show_settled(main, signal, report, { view_module, descriptions },
     }
     const address = new AddressWriter(signal);
     const fail = (error) => main.prepend(message("error", error.message));
+    const seen = []; // the pixels that were explained
+    const save = async (tell) => {
+      const { save_with_pixels } = await import("./report_file.js");
+      await save_with_pixels(report, view.run, seen, tell);
+    };
     const view = module.report_view(report, {
       picture_url: (image) => image.url,
       methods,
       metrics: metrics ?? [],
       columns: columns ?? [],
-      actions: report_actions(report, () => address.href, fail),
+      actions: report_actions(report, { link: () => address.href, save }, fail),
       on_rounds: (rounds) => run_again({ ...report.spec, timing: { ...report.spec.timing, rounds } }).catch(fail),
-      load_pixel: (place, signal) => get_pixel(report.id, place, signal),
+      load_pixel: async (place, signal) => {
+        const pixel = await get_pixel(report.id, place, signal);
+        seen.push({ ...place, pixel });
+        return pixel;
+      },
       query,
       on_query: (shown, is_step) => address.write(shown, is_step),
     });
