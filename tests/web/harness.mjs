@@ -214,9 +214,12 @@ export function service_tests(program = process.env.SHEER) {
     });
   before(async () => {
     const starting = start_browser();
-    service = await start_service(program);
-    report = await post_report(SPEC, { Prefer: "wait=60" });
-    browser = await starting;
+    try {
+      service = await start_service(program);
+      report = await post_report(SPEC, { Prefer: "wait=60" });
+    } finally {
+      browser = await starting;
+    }
     assert.equal(report.status, "done", JSON.stringify(report));
   });
   after(async () => {
