@@ -127,6 +127,13 @@ export async function submit(spec) {
   return body?.id ?? location.split("/").pop();
 }
 
+/** The self-contained file, as text. */
+export async function get_report_html(id) {
+  const response = await fetch(`${report_path(id)}/report.html`);
+  if (!response.ok) throw new ApiError(response.status, { detail: "The file could not be loaded." });
+  return response.text();
+}
+
 export async function get_report(id, signal) {
   return (await call(`/reports/${encodeURIComponent(id)}`, { signal })).body;
 }

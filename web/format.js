@@ -28,8 +28,11 @@ export function fixed(value, decimals) {
   return text.replace("-", "−");
 }
 
+// toLocaleString would make one for each number.
+const WITH_COMMAS = new Intl.NumberFormat("en-US");
+
 export function integer(value) {
-  return is_number(value) ? Math.round(value).toLocaleString("en-US").replace("-", "−") : DASH;
+  return is_number(value) ? WITH_COMMAS.format(Math.round(value)).replace("-", "−") : DASH;
 }
 
 export const MIB = 2 ** 20;

@@ -47,7 +47,7 @@ export class ImageViewer {
    * `sources`: [{key, label, data: PictureData, missing}], the reference first, with keys 0, 1, 2...; one without pictures says
    * why in `missing`. `kinds`: [{key, label, note, once}], colors first; a picture that is `once` is the same for all
    * methods. `background`: with which the pictures were drawn, [red, green, blue]. `on_pick(x, y)` is called when a pixel is chosen
-   * by a click or Enter; null if that does nothing. `below`: elements under the pictures. `on_change(is_step)` is called when
+   * by a click or Enter; null if that does nothing, which the text `no_pick` then explains. `below`: elements under the pictures. `on_change(is_step)` is called when
    * what is shown has changed, with true for a step that "back" should undo.
    */
   constructor({
@@ -57,6 +57,7 @@ export class ImageViewer {
     sources,
     kinds,
     on_pick = null,
+    no_pick = "",
     below = [],
     on_change = () => {},
   }) {
@@ -103,7 +104,7 @@ export class ImageViewer {
       this.#values.element,
       below,
       this.#errors.element,
-      el("p", { class: "keys-hint", id: hint_id }, KEYS + (on_pick ? PICK_KEYS : "")),
+      el("p", { class: "keys-hint", id: hint_id }, KEYS + (on_pick ? PICK_KEYS : no_pick)),
       this.#announcer,
       this.#sheet,
     );

@@ -22,14 +22,14 @@ export function menu(text, label, items) {
     event.stopPropagation();
   });
   list.addEventListener("click", ({ target }) => {
-    if (!target.closest(".copy")) close();
+    if (!target.closest(".stays-open")) close();
   });
   return element;
 }
 
 /** A button that copies a text, and says so. `text` is a string or a function that makes it. */
 export function copy_button(name, text) {
-  const button = el("button", { type: "button", class: "copy" }, name);
+  const button = el("button", { type: "button", class: "stays-open" }, name);
   button.addEventListener("click", async () => {
     try {
       await navigator.clipboard.writeText(typeof text === "function" ? text() : text);

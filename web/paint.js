@@ -86,6 +86,11 @@ export function histogram(sizes) {
   return counts;
 }
 
+/** [x, y] of the pixel in which two rasters of levels differ most, null if they do not. */
+export function worst_of(against, shown) {
+  return worst_pixels(greatest_differences(against, shown), against.width)[0] ?? null;
+}
+
 const BLOCK_PX = 16;
 
 /** The worst pixel of each block of 16 × 16, the worst of all first: [[x, y]]. Pixels without error are left out. */

@@ -1,10 +1,10 @@
 // The explanation of a pixel: its stack of fragments, near to far, and what each method made of it.
 import { el, set_children } from "./dom.js";
 import { DASH, fixed, is_number, words } from "./format.js";
+import { patiently } from "./patience.js";
 
 const DECIMALS = 4;
 const FIRST_ROWS = 60;
-const MOST_RETRIES = 20;
 
 function color_swatch(color) {
   const node = el("span", { class: "swatch", "aria-hidden": "true" }, el("span"));
@@ -250,16 +250,6 @@ function explanations(pixel) {
 const scroller = (label, table) =>
   el("div", { class: "scroller", tabindex: "0", role: "group", "aria-label": label }, table);
 
-function pause(seconds, signal) {
-  return new Promise((resolve, reject) => {
-    const timer = setTimeout(resolve, seconds * 1000);
-    signal.addEventListener("abort", () => {
-      clearTimeout(timer);
-      reject(signal.reason);
-    });
-  });
-}
-
 export class PixelView {
   #load;
   #known = new Map();
@@ -297,7 +287,7 @@ export class PixelView {
       set_children(this.#body, el("p", { class: "muted" }, "Rendering its fragments…"));
     }
     try {
-      const pixel = this.#known.get(key) ?? (await this.#patient_load(x, y, signal));
+      const pixel = this.#known.get(key) ?? (await patiently(() => this.#load(x, y, signal), signal));
       if (signal.aborted) return;
       this.#known.set(key, pixel);
       set_children(
@@ -316,18 +306,6 @@ export class PixelView {
     this.#loading?.abort();
     this.element.hidden = true;
     this.#return_to?.focus({ preventScroll: true });
-  }
-
-  /** The service explains one pixel at a time and says when to retry. */
-  async #patient_load(x, y, signal) {
-    for (let tries = 1; ; ++tries) {
-      try {
-        return await this.#load(x, y, signal);
-      } catch (error) {
-        if (error.status !== 429 || tries >= MOST_RETRIES) throw error;
-        await pause(error.retry_after_s ?? 1, signal);
-      }
-    }
   }
 
   #key(event) {

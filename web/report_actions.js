@@ -65,8 +65,27 @@ function sheer_command(spec) {
   return `printf %s ${shell_word(JSON.stringify(spec))} > spec.json && sheer compare spec.json --out report`;
 }
 
-/** The buttons of a finished report; `link()` is the address of what is shown. */
-export function report_actions(report, link, on_error) {
+/** `save(tell)` saves the file, and calls `tell(text)` as it goes on. */
+function pixels_button(save, on_error) {
+  const name = "report.html with pixels explained";
+  const button = el("button", { type: "button", class: "stays-open", title: "The worst pixel of each method" }, name);
+  button.addEventListener("click", async () => {
+    button.disabled = true;
+    try {
+      await save((text) => {
+        button.textContent = text;
+      });
+    } catch (error) {
+      on_error(error);
+    }
+    button.textContent = name;
+    button.disabled = false;
+  });
+  return button;
+}
+
+/** The buttons of a finished report; `link()` is the address of what is shown, `save(tell)` saves its file with pixels. */
+export function report_actions(report, { link, save }, on_error) {
   const path = report_path(report.id);
   const file = (name) => el("a", { class: "button", href: `${path}/${name}` }, name);
   return [
@@ -77,6 +96,7 @@ export function report_actions(report, link, on_error) {
     menu("⋯", "More", [
       el("a", { class: "button", href: path }, "report.json"),
       file("report.html"),
+      report.status === "done" ? pixels_button(save, on_error) : null,
       file("junit.xml"),
       copy_button("Copy as curl", () => curl_command(report.spec)),
       copy_button("Copy as sheer command", () => sheer_command(report.spec)),

@@ -10,6 +10,12 @@ export function status_text({ status = "ok", reason } = {}) {
   return status === "ok" ? null : `${words(status)}: ${reason ?? "no reason given"}`;
 }
 
+/** The scene's type and the size of the pictures. */
+export function subject_text({ scene, image } = {}) {
+  const size = image?.width ? `${image.width} × ${image.height} px` : "";
+  return [words(scene?.type ?? ""), size].filter(Boolean).join(" · ");
+}
+
 /** What was rendered, in one line. */
 export function scene_text(scene) {
   if (!scene) return "";
@@ -68,11 +74,9 @@ function verdict_chip({ verdict, checks = [] }) {
 /** `actions`: elements at the end of the line of the title. */
 export function report_head(report, actions) {
   const { spec = {}, device = {}, runs = [] } = report;
-  const image = spec.image ?? {};
   const tags = Object.entries(spec.tags ?? {});
   const summary = [
-    words(spec.scene?.type ?? ""),
-    image.width ? `${image.width} × ${image.height} px` : "",
+    subject_text(spec),
     runs.length > 1 ? `${runs.length} points` : point_text(runs[0]?.point, spec),
     device.renderer,
     when(report.finished_at),
@@ -167,4 +171,9 @@ export function report_details(report) {
       ),
     ),
   );
+}
+
+/** The report's `error`, a string or a problem object. */
+export function error_text(error) {
+  return typeof error === "string" ? error : (error?.detail ?? error?.title ?? error?.message ?? "Rendering failed");
 }

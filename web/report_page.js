@@ -5,9 +5,7 @@ import { change_panel } from "./baselines_view.js";
 import { el, set_children } from "./dom.js";
 import { when } from "./format.js";
 import { delete_button, edit_button, report_actions, run_again, run_again_button } from "./report_actions.js";
-import { scene_text } from "./report_head.js";
-import { error_text, report_view } from "./report_view.js";
-import { show_waiting } from "./waiting_view.js";
+import { error_text, scene_text } from "./report_head.js";
 
 const UNSETTLED = ["queued", "running"];
 
@@ -20,23 +18,36 @@ function ended_text({ status, error }) {
   return status === "cancelled" ? "This comparison was cancelled." : `Rendering failed: ${error_text(error)}`;
 }
 
-async function show_settled(main, signal, report, descriptions, { query, on_query }) {
+async function show_settled(main, signal, report, { view_module, descriptions }, { query, on_query }) {
   document.title = `${report.spec?.title || "Report"} – Sheer`;
   // The finished parts of a job that ended early are shown as well.
   const is_done = report.status === "done";
   if (is_done || report.runs?.length > 0) {
-    const [methods, metrics, columns] = await descriptions;
+    const [module, [methods, metrics, columns]] = await Promise.all([view_module, descriptions]);
     if (signal.aborted) return;
+    if (!module) {
+      set_children(main, message("error", "A part of the page could not be loaded: reload to try again."));
+      return;
+    }
     const address = new AddressWriter(signal);
     const fail = (error) => main.prepend(message("error", error.message));
-    const view = report_view(report, {
+    const seen = []; // the pixels that were explained
+    const save = async (tell) => {
+      const { save_with_pixels } = await import("./report_file.js");
+      await save_with_pixels(report, view.run, seen, tell);
+    };
+    const view = module.report_view(report, {
       picture_url: (image) => image.url,
       methods,
       metrics: metrics ?? [],
       columns: columns ?? [],
-      actions: report_actions(report, () => address.href, fail),
+      actions: report_actions(report, { link: () => address.href, save }, fail),
       on_rounds: (rounds) => run_again({ ...report.spec, timing: { ...report.spec.timing, rounds } }).catch(fail),
-      load_pixel: (place, signal) => get_pixel(report.id, place, signal),
+      load_pixel: async (place, signal) => {
+        const pixel = await get_pixel(report.id, place, signal);
+        seen.push({ ...place, pixel });
+        return pixel;
+      },
       query,
       on_query: (shown, is_step) => address.write(shown, is_step),
     });
@@ -98,7 +109,9 @@ function load_descriptions() {
 export async function show_report(main, signal, context) {
   const [id] = context.parts;
   if (!main.firstChild) set_children(main, message("info", "Loading the report…"));
-  const descriptions = load_descriptions(); // while the report is loaded
+  // All at once: the view's modules import each other over many steps, each of which waits for the one before.
+  const view_module = import("./report_view.js").catch(() => null);
+  const parts = { view_module, descriptions: load_descriptions() };
   let report;
   try {
     report = await get_report(id, signal);
@@ -126,9 +139,11 @@ export async function show_report(main, signal, context) {
     return;
   }
   if (signal.aborted) return;
-  if (UNSETTLED.includes(report.status))
+  if (UNSETTLED.includes(report.status)) {
+    const { show_waiting } = await import("./waiting_view.js");
+    if (signal.aborted) return;
     show_waiting(main, signal, report, () => {
       if (!signal.aborted) show_report(main, signal, context);
     });
-  else await show_settled(main, signal, report, descriptions, context);
+  } else await show_settled(main, signal, report, parts, context);
 }

@@ -7,7 +7,7 @@ import { frontier_section } from "./frontier_view.js";
 import { ImageViewer } from "./image_viewer.js";
 import { note_list } from "./notes.js";
 import { PixelView } from "./pixel_view.js";
-import { facts, reference_text, report_details, report_head } from "./report_head.js";
+import { error_text, facts, reference_text, report_details, report_head } from "./report_head.js";
 import { is_shown, kinds_of, sources_of } from "./report_pictures.js";
 import { difference_table, fragment_table, timing_table } from "./result_tables.js";
 import { suite_section } from "./suite_view.js";
@@ -23,6 +23,8 @@ function notes_list(notes = []) {
   );
 }
 
+const NO_PIXELS =
+  " How a pixel is made is not in this file: the service's page of the report shows it, and saves files that explain some.";
 const ENDINGS = { "image/png": "png", "image/x-exr": "exr" };
 
 /** A link to every picture of a run, which saves it under a readable name. */
@@ -56,10 +58,32 @@ function picture_links(run, picture_url) {
   );
 }
 
+/** Buttons for the pixels that the self-contained file explains in this run. */
+function explained_pixels(explained, run, on_choose) {
+  const here = explained.filter((one) => one.run === run);
+  if (here.length === 0) return null;
+  return el(
+    "div",
+    { class: "explained-pixels", role: "group", "aria-label": "Pixels explained in this file" },
+    "Explained in this file:",
+    here.map((one) =>
+      el(
+        "button",
+        { type: "button", class: "small", onclick: () => on_choose(one) },
+        `x ${one.x}, y ${one.y} (${one.why})`,
+      ),
+    ),
+  );
+}
+
 function run_part(report, run, options) {
-  const { methods, metrics, columns, picture_url, load_pixel, on_change } = options;
+  const { methods, metrics, columns, picture_url, load_pixel, explained, on_change } = options;
   const index = report.runs.indexOf(run);
   const pixel = load_pixel ? new PixelView((x, y, signal) => load_pixel({ x, y, run: index }, signal)) : null;
+  const show_explained = ({ x, y }) => {
+    viewer.show_pixel(x, y);
+    pixel.show(x, y);
+  };
   const { width, height, background } = run_image(report, run);
   const viewer = new ImageViewer({
     width_px: width,
@@ -67,8 +91,9 @@ function run_part(report, run, options) {
     background,
     sources: sources_of(run, picture_url),
     kinds: kinds_of(run, metrics),
+    no_pick: NO_PIXELS,
     on_pick: pixel ? (x, y) => pixel.show(x, y) : null,
-    below: pixel ? [pixel.element] : [],
+    below: pixel ? [explained_pixels(explained, index, show_explained), pixel.element] : [],
     on_change,
   });
   const context = {
@@ -104,11 +129,12 @@ function run_image(report, run) {
 }
 
 /**
- * {element, show(query)}: the report, and a function that makes it show what an address says.
+ * {element, show(query), run}: the report, a function that makes it show what an address says, and the number of the run that is
+ * shown.
  *
  * `options`: `picture_url(image)` returns the address of an image object or null; `methods`, `metrics` and `columns`
  * are their descriptions (may be empty); `actions` are elements for the head; `load_pixel({x, y, run}, signal)` loads the
- * explanation of a pixel, and `on_rounds(rounds)` repeats the comparison with more rounds: neither is offered without it. `query`: what to show first, as
+ * explanation of a pixel, `explained` are the places that have one if not all do, and `on_rounds(rounds)` repeats the comparison with more rounds: neither is offered without it. `query`: what to show first, as
  * texts; `on_query(query, is_step)` gets what is shown whenever it changes, with true for a step that "back" should undo.
  */
 export function report_view(
@@ -120,6 +146,7 @@ export function report_view(
     columns = [],
     actions = [],
     load_pixel = null,
+    explained = [],
     on_rounds = null,
     query = {},
     on_query = () => {},
@@ -136,7 +163,7 @@ export function report_view(
     shown = viewer.query;
     on_query({ ...(run_index > 0 ? { run: run_index } : {}), ...shown }, is_step);
   };
-  const options = { picture_url, methods, metrics, columns, load_pixel, on_change: tell };
+  const options = { picture_url, methods, metrics, columns, load_pixel, explained, on_change: tell };
   const answer = new AnswerCard({
     runs,
     methods,
@@ -189,7 +216,13 @@ export function report_view(
     place,
     report_details(report),
   );
-  return { element, show: take };
+  return {
+    element,
+    show: take,
+    get run() {
+      return run_index;
+    },
+  };
 }
 
 /** The run of a sweep to begin with: the one in which the methods' errors are farthest apart. */
@@ -200,9 +233,4 @@ function first_run(runs) {
   };
   const spreads = runs.map(spread);
   return Math.max(0, spreads.indexOf(Math.max(...spreads)));
-}
-
-/** The report's `error`, a string or a problem object. */
-export function error_text(error) {
-  return typeof error === "string" ? error : (error?.detail ?? error?.title ?? error?.message ?? "Rendering failed");
 }

@@ -1,7 +1,7 @@
 // The part of a report for sweeps: charts of times and metrics, and the choice of the point to show.
 import { legend, line_chart } from "./chart.js";
 import { columns_of, difference_columns, missing_reason, value_at } from "./columns.js";
-import { el, select, set_children } from "./dom.js";
+import { append, el, select, set_children } from "./dom.js";
 import { column_decimals, DASH, fixed, integer, is_number } from "./format.js";
 import { axes_of, growth_along, point_text, runs_along, series_along, stops_of } from "./sweep.js";
 import { SweepGrid } from "./sweep_grid.js";
@@ -22,14 +22,14 @@ function shown_in(along, column) {
 }
 
 /** All values along the axis as numbers: one row per point and method. */
-function values_table(axis, along, columns) {
+function values_rows(axis, along, columns) {
   const shown = columns.map((column) => shown_in(along, column));
   const cell = (result, column, index) => {
     const value = value_at(result, column.path);
     if (!is_number(value)) return el("td", { class: "number missing", title: missing_reason(result, column) }, DASH);
     return el("td", { class: "number", "data-path": column.path, "data-value": String(value) }, shown[index](value));
   };
-  const rows = along.flatMap(({ stop, run }) =>
+  return along.flatMap(({ stop, run }) =>
     run.results.map((result) =>
       el(
         "tr",
@@ -39,6 +39,12 @@ function values_table(axis, along, columns) {
       ),
     ),
   );
+}
+
+/** The rows are made when it is opened: a sweep of a hundred points has thousands of values. */
+function values_table(axis, along, columns, open) {
+  const body = el("tbody");
+  const fill = () => body.firstChild || append(body, values_rows(axis, along, columns));
   const heads = columns.map((column) =>
     el(
       "th",
@@ -49,7 +55,7 @@ function values_table(axis, along, columns) {
   );
   return el(
     "details",
-    { class: "sweep-values" },
+    { class: "sweep-values", open, ontoggle: fill },
     el("summary", {}, "Values as a table"),
     el(
       "div",
@@ -58,7 +64,7 @@ function values_table(axis, along, columns) {
         "table",
         { class: "results sweep" },
         el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Point and method"), heads)),
-        el("tbody", {}, rows),
+        body,
       ),
     ),
   );
@@ -234,9 +240,8 @@ export class SweepView {
       this.#metric ? chart(this.#metric, this.#metric_select) : null,
     );
     this.#charts.querySelectorAll(".plot")[had_focus]?.focus();
-    const open = this.#values.querySelector("details")?.open;
-    set_children(this.#values, values_table(axis, along, [...timed, ...this.#metrics]));
-    if (open) this.#values.querySelector("details").open = true;
+    const open = this.#values.querySelector("details")?.open ?? false;
+    set_children(this.#values, values_table(axis, along, [...timed, ...this.#metrics], open));
     this.#show_growth(axis, run);
     if (run) this.#grid?.show(run);
   }

@@ -100,6 +100,11 @@ function chart(trend) {
   );
 }
 
+function chart_box(trend) {
+  const label = `${trend.metric} of ${trend.method}`;
+  return el("div", { class: "trend-box", tabindex: "0", role: "region", "aria-label": label }, chart(trend));
+}
+
 function change_list({ change_points, values, unit }) {
   if (change_points.length === 0) return el("p", { class: "muted" }, "No change of its level was found.");
   return el(
@@ -159,7 +164,8 @@ export function show_trend(main, signal, { parts: [spec_sha256], query, on_query
         { class: "muted", role: "status" },
         `${integer(count)} ${count === 1 ? "report" : "reports"}${missing} on ${trend.device || "no device"}`,
       ),
-      count > 0 ? [chart(trend), change_list(trend)] : null,
+      count > 1 ? [chart_box(trend), change_list(trend)] : null,
+      count === 1 ? el("p", {}, "A trend begins with the second report of this spec on this device.") : null,
     );
   }
 

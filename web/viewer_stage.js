@@ -160,7 +160,9 @@ export class ViewerStage {
   #large_figure(pane, caption) {
     const figure = el("figure", { class: "pane" }, pane.element, el("figcaption", {}, caption));
     const [width] = this.#viewport.size;
-    const zoom = this.#viewport.fit_zoom(this.element.clientWidth - 2 || Infinity, window.innerHeight * HEIGHT_SHARE);
+    // It has no width before it is on the page.
+    const room = (this.element.clientWidth || Infinity) - 2;
+    const zoom = this.#viewport.fit_zoom(room, window.innerHeight * HEIGHT_SHARE);
     const whole_px = (width * zoom) / (window.devicePixelRatio || 1) + 2;
     figure.style.maxWidth = this.#fills ? "" : `${Math.max(LEAST_WIDTH_PX, whole_px)}px`;
     set_children(this.element, figure);

@@ -2,7 +2,7 @@
 import { delete_report, follow, get_early_pictures, get_workers, list_reports } from "./api.js";
 import { el, set_children } from "./dom.js";
 import { note_list } from "./notes.js";
-import { scene_text } from "./report_head.js";
+import { subject_text } from "./report_head.js";
 import { point_text } from "./sweep.js";
 
 const QUEUE_PAUSE_MS = 3000;
@@ -72,7 +72,7 @@ class Waiting {
       "section",
       { class: "progress-card", "aria-label": "Progress" },
       el("h1", {}, report.spec?.title || "Untitled comparison"),
-      el("p", { class: "muted" }, [scene_text(report.spec?.scene), methods].filter(Boolean).join(" — ")),
+      el("p", { class: "muted" }, [subject_text(report.spec), methods].filter(Boolean).join(" — ")),
       el("div", { class: "progress-line" }, this.#bar, this.#percent),
       this.#stage,
       this.#left,

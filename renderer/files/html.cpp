@@ -23,8 +23,8 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* entry_module = "standalone.js";
-constexpr const char* style_sheets[] = {"base.css",   "controls.css", "answer.css",
-                                        "viewer.css", "report.css",   "chart.css"};
+constexpr const char* style_sheets[] = {"base.css",   "controls.css", "answer.css", "viewer.css",
+                                        "report.css", "pixel.css",    "chart.css"};
 
 std::string web_file(std::string_view path) {
     for (const EmbeddedFile& file : embedded_web())

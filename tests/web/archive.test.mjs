@@ -122,10 +122,10 @@ page_test("the trend of a spec shows where it changed, and a click compares arou
     methods: ["b2f"],
     timing: { rounds: 1 },
   };
-  const [first, second] = [
-    await post_report(spec, { Prefer: "wait=60" }),
-    await post_report(spec, { Prefer: "wait=60" }),
-  ];
+  const first = await post_report(spec, { Prefer: "wait=60" });
+  await page.goto(`${tests.url()}/#/trends/${first.spec_sha256}`);
+  await page.getByText("A trend begins with the second report").waitFor();
+  const second = await post_report(spec, { Prefer: "wait=60" });
   await page.goto(`${tests.url()}/#/reports/${second.id}`);
   await page.getByRole("link", { name: "Trend of this spec" }).click();
   await page.getByText("2 reports on").waitFor();

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createRequire } from "node:module";
@@ -13,11 +13,20 @@ const failures = process.env.SHEER_SCREENSHOTS ?? join(tmpdir(), "sheer-web-fail
 const START_MS = 30_000;
 const WAIT_MS = 15_000;
 
-/** Starts `sheer serve` on a free port; returns {url, folder, stop}. */
-export async function start_service(program) {
+/**
+ * Nothing here is about the sandbox, which tests/service covers. Without one the driver keeps its compiled shaders between
+ * processes, so that a small report takes a sixth of the time.
+ */
+const CONFIG = { sandbox: { enabled: false, required: false } };
+
+/** Starts `sheer serve` on a free port, with an empty archive or the one in `archive`; returns {url, folder, stop}. */
+export async function start_service(program, archive = null) {
   assert.ok(program, "SHEER and SHEER_MADE_UP must name the programs");
   const folder = mkdtempSync(join(tmpdir(), "sheer-web-"));
-  const child = spawn(program, ["serve", "--listen", "127.0.0.1:0", "--data", join(folder, "data")], {
+  const config = join(folder, "server.json");
+  writeFileSync(config, JSON.stringify(CONFIG));
+  const data = archive ?? join(folder, "data");
+  const child = spawn(program, ["serve", "--listen", "127.0.0.1:0", "--data", data, "--config", config], {
     stdio: ["ignore", "pipe", "pipe"],
   });
   const ended = new Promise((resolve) => child.once("exit", resolve));
@@ -101,20 +110,24 @@ async function with_page(browser, name, options, body) {
   }
 }
 
-/** Asserts that axe finds nothing. What it checks besides colors is the same in the dark. */
-export async function assert_accessible(page, what) {
-  await page.evaluate(axe_source);
+/**
+ * Asserts that axe finds nothing. What it checks besides colors is the same in the dark. With `part`, a selector, only there:
+ * for a view whose other parts another test checks.
+ */
+export async function assert_accessible(page, what, part = null) {
+  if (!(await page.evaluate(() => "axe" in globalThis))) await page.evaluate(axe_source);
+  if (part) assert.ok((await page.locator(part).count()) > 0, `${what} has ${part}`);
   for (const [colorScheme, options] of [
     ["light", {}],
     ["dark", { runOnly: ["color-contrast"] }],
   ]) {
     await page.emulateMedia({ colorScheme });
     const found = await page.evaluate(
-      async (rules) =>
-        (await globalThis.axe.run(document, { ...rules, resultTypes: ["violations"] })).violations.map(
+      async ([rules, place]) =>
+        (await globalThis.axe.run(place ?? document, { ...rules, resultTypes: ["violations"] })).violations.map(
           (violation) => `${violation.id}: ${violation.nodes.map((node) => node.html).join(" | ")}`,
         ),
-      options,
+      [options, part],
     );
     assert.deepEqual(found, [], `${what} in ${colorScheme}`);
   }
@@ -171,6 +184,9 @@ const SPEC = {
   checks: [{ metric: "flip.mean", method: "b2f", max: 0.1 }],
 };
 
+/** A pixel of its pictures under which there are more than two fragments. */
+export const CROWDED = { x: 25, y: 25 };
+
 export const field = (pointer) => `[data-pointer="${pointer}"]`;
 
 /** Fills the form with a small comparison that has a hostile title. */
@@ -197,9 +213,13 @@ export function service_tests(program = process.env.SHEER) {
       body: JSON.stringify(spec),
     });
   before(async () => {
-    service = await start_service(program);
-    browser = await start_browser();
-    report = await post_report(SPEC, { Prefer: "wait=60" });
+    const starting = start_browser();
+    try {
+      service = await start_service(program);
+      report = await post_report(SPEC, { Prefer: "wait=60" });
+    } finally {
+      browser = await starting;
+    }
     assert.equal(report.status, "done", JSON.stringify(report));
   });
   after(async () => {

@@ -2,10 +2,11 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { assert_accessible, service_tests } from "./harness.mjs";
+import { assert_accessible, CROWDED, service_tests } from "./harness.mjs";
 
 const { api, folder, page_test, report_id, url } = service_tests();
 
+const RENDER_MS = 90_000;
 const stack = "table.pixel-stack tbody tr";
 const pane = ".pane-view";
 
@@ -16,11 +17,9 @@ async function open(page) {
 
 /** A pixel with more than two fragments, as described by the service. */
 async function crowded_pixel() {
-  for (let x = 5; x < 96; x += 10) {
-    const pixel = await api(`/reports/${report_id()}/pixel?x=${x}&y=${x % 64}`);
-    if (pixel.fragments.length > 2) return pixel;
-  }
-  return assert.fail("no pixel has more than two fragments");
+  const pixel = await api(`/reports/${report_id()}/pixel?${new URLSearchParams(CROWDED)}`);
+  assert.ok(pixel.fragments.length > 2);
+  return pixel;
 }
 
 /** [x, y] of the title. */
@@ -111,12 +110,59 @@ page_test("a pixel that cannot be explained says why", { expected_statuses: [503
   assert.equal(await page.locator(".pixel-view [role=alert]").textContent(), "It takes <b>too long</b>.");
 });
 
-page_test("the self-contained report does not offer it", { origin: undefined }, async (page) => {
+page_test("the self-contained report does not offer it, and says where it is", { origin: undefined }, async (page) => {
   const html = await (await fetch(`${url()}/api/v1/reports/${report_id()}/report.html`)).text();
   const file = join(folder(), "pixel-report.html");
   writeFileSync(file, html);
   await page.goto(`file://${file}`);
   await page.locator(pane).first().waitFor();
   assert.equal(await page.locator(".pixel-view").count(), 0);
-  assert.doesNotMatch(await page.locator(".keys-hint").textContent(), /apart/);
+  assert.match(await page.locator(".keys-hint").textContent(), /not in this file: the service's page/);
 });
+
+page_test(
+  "a file saved with pixels explains the worst of each method and those looked at",
+  { origin: undefined, acceptDownloads: true },
+  async (page) => {
+    await page.goto(`${url()}/#/reports/${report_id()}?pixel=${CROWDED.x},${CROWDED.y}`);
+    await page.locator(pane).first().focus();
+    await page.keyboard.press("Enter");
+    await page.locator(stack).first().waitFor();
+    await page.getByLabel("More").click();
+    const saving = page.waitForEvent("download", { timeout: RENDER_MS });
+    await page.getByRole("button", { name: "report.html with pixels explained" }).click();
+    const file = join(folder(), "with-pixels.html");
+    await (await saving).saveAs(file);
+
+    await page.context().setOffline(true);
+    await page.goto(`file://${file}#?layout=slider&shown=4`);
+    await page.locator(pane).first().waitFor();
+    const { results } = (await api(`/reports/${report_id()}`)).runs[0];
+    const places = await page.getByRole("group", { name: "Pixels explained in this file" }).getByRole("button").all();
+    const texts = (await Promise.all(places.map((one) => one.textContent()))).join("; ");
+    for (const { label, metrics } of results)
+      assert.equal(texts.includes(`worst of`) && texts.includes(label), metrics.flip.mean > 0, `${label} in ${texts}`);
+    assert.match(texts, new RegExp(`x ${CROWDED.x}, y ${CROWDED.y} \\(looked at\\)`));
+
+    // The keys lead to the worst pixel of the fourth method, and explain it as the service does.
+    await page.keyboard.press("n");
+    await page
+      .locator(".readout")
+      .getByText(/^x \d+/)
+      .waitFor();
+    await page.locator(pane).first().focus();
+    await page.keyboard.press("Enter");
+    const [x, y] = await shown_pixel(page);
+    assert.match(texts, new RegExp(`x ${x}, y ${y} \\(worst of [^)]*${results[3].label}`));
+    const { fragments } = await api(`/reports/${report_id()}/pixel?x=${x}&y=${y}`);
+    assert.equal(await page.locator(stack).count(), fragments.length + 1);
+    await assert_accessible(page, "a file with pixels", ".viewer");
+
+    await page.locator(pane).first().focus();
+    await page.keyboard.press("Shift+ArrowRight");
+    await page.keyboard.press("Enter");
+    await page.getByRole("alert").getByText("This file does not explain this pixel.").waitFor();
+    await page.getByRole("button", { name: `x ${CROWDED.x}, y ${CROWDED.y}` }).click();
+    assert.deepEqual(await shown_pixel(page), [CROWDED.x, CROWDED.y]);
+  },
+);

@@ -50,7 +50,7 @@ function probes(schema) {
       const step = is_whole(schema) ? 1 / 8 : Math.max(Math.abs(bound), 1) * 1e-9;
       return [bound, bound - step, bound + step, bound - 1, bound + 1];
     });
-  return [...near, 0, 0.5, 1.5, 2, 3, 4, 1e7, -1e7];
+  return [...new Set([...near, 0, 0.5, 1.5, 2, 3, 4, 1e7, -1e7])];
 }
 
 /** Everything of the form that has a range or choices: {pointer, index, count, probes → validity}. */
@@ -124,8 +124,8 @@ async function check_numbers(page, root, of_interest) {
     shown.forEach((valid, index) => assert.equal(valid, expected[index], `the form, ${what(index)}`));
     // The service is asked about single numbers, in lists only in the first entry: later ones may have to be greater.
     if (input.index !== null || /\/[1-9]\d*\/\w+$/.test(input.pointer.replace(/^\/methods\/\d+/, ""))) continue;
-    for (const [index, value] of values.entries())
-      assert.equal(await service_refuses(spec, input.pointer, value), !expected[index], `the service, ${what(index)}`);
+    const refused = await Promise.all(values.map((value) => service_refuses(spec, input.pointer, value)));
+    refused.forEach((is_refused, index) => assert.equal(is_refused, !expected[index], `the service, ${what(index)}`));
   }
   return inputs.map(({ pointer }) => pointer);
 }

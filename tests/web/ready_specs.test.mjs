@@ -80,7 +80,7 @@ page_test("title and checks of a ready-made spec are removed with it, and can be
   assert.equal(await page.locator(".check-row").count(), 0);
   const note = page.locator(".left-note");
   assert.ok((await note.textContent()).includes(ready.title));
-  await assert_accessible(page, "a form that had a ready-made spec");
+  await assert_accessible(page, "a form that had a ready-made spec", ".left-note");
   await note.getByRole("button", { name: "Put back" }).click();
   const back = await spec_of(page);
   assert.deepEqual([back.title, back.checks], [ready.title, ready.checks]);
@@ -174,7 +174,7 @@ page_test("the form says how many rounds an interval needs, as the report does",
     );
   }
   await rounds.locator("input").fill("3");
-  await assert_accessible(page, "a form with too few rounds");
+  await assert_accessible(page, "a form with too few rounds", field("/timing/rounds"));
 
   const methods = ["b2f", "f2b", "f2bd", "unsorted", "exact"];
   const judged = async (count) => {

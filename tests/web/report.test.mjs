@@ -231,6 +231,11 @@ page_test("a printed report shows every picture and whole tables", {}, async (pa
   await loaded(page);
   await page.setViewportSize({ width: 740, height: 1000 }); // about A4 without margins
   await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => {
+    document.documentElement.dataset.theme = "dark";
+  });
+  const scheme = () => getComputedStyle(document.documentElement).colorScheme;
+  assert.equal(await page.evaluate(scheme), "light", "paper is white");
   assert.equal(await page.locator(".toolbar").isVisible(), false);
   const panes = page.locator("figure.pane img");
   for (const image of await panes.all()) assert.ok((await image.boundingBox()).width > 90);
@@ -274,7 +279,17 @@ page_test("every view fits a narrow window", { viewport: { width: 400, height: 8
   await page.getByRole("button", { name: "Run comparison" }).click();
   await page.locator("article.report").waitFor({ timeout: RENDER_MS });
   await assert_accessible(page, "the narrow report");
+  await page.locator(".pane-view").first().press("Shift+ArrowRight");
+  await page.locator(".pane-view").first().press("Enter");
+  await page.locator("table.pixel-methods").waitFor({ timeout: RENDER_MS });
+  await assert_accessible(page, "a narrow pixel", ".pixel-view");
   await page.goto(`${tests.url()}/#/reports`);
   await page.locator(".entry").first().waitFor();
   await assert_accessible(page, "the narrow archive");
+  const [picture, title] = await Promise.all(
+    [".thumb", ".entry-title"].map((part) => page.locator(`.entry ${part}`).first().boundingBox()),
+  );
+  assert.ok(picture.x + picture.width <= title.x, "a title is beside its picture");
+  const last = await page.getByRole("navigation").getByRole("link").last().boundingBox();
+  assert.ok(last.x + last.width <= 400, "no link is cut off");
 });

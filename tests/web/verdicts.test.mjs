@@ -75,7 +75,7 @@ page_test("notes are shown near the top, on the page and in the file", { origin:
   await page.getByText("Details", { exact: true }).click();
   const file = await page.getByRole("list", { name: "Files" }).textContent();
   assert.ok(file.includes(createHash("sha256").update(NOTED).digest("hex")), file);
-  await assert_accessible(page, "a report with notes");
+  await assert_accessible(page, "a report with notes", "section.notes, .report-details");
   await open_file(page, report);
   await look();
 });
@@ -100,7 +100,7 @@ page_test("a method that cannot run says why, and the others are shown", {}, asy
     assert.ok((await row.textContent()).includes(result.reason), table);
   }
   assert.ok((await page.locator(".viewer").textContent()).includes(result.reason), "where its picture would be");
-  await assert_accessible(page, "a report with a method that cannot run");
+  await assert_accessible(page, "a report with a method that cannot run", ".viewer, table.results");
 });
 
 /** Values of the marked cells of a table: [{label, path}]. */
@@ -229,7 +229,7 @@ page_test("what looks change and with which report it was compared is shown", { 
     await checks.locator(".against").innerText(),
     new RegExp(`^compared with ${first.id} of page, accepted`),
   );
-  await assert_accessible(page);
+  await assert_accessible(page, "what looks change", "section.checks");
   await fetch(`${tests.url()}/api/v1/baselines/page`, { method: "DELETE" });
 });
 
@@ -272,7 +272,7 @@ page_test(
     const top = (locator) => locator.evaluate((node) => node.getBoundingClientRect().top);
     assert.ok((await top(panel)) < (await top(page.locator("article.report"))));
     assert.match(await panel.textContent(), /In the spec: \/scene\/shading\/glsl/);
-    await assert_accessible(page, "a report compared with a baseline");
+    await assert_accessible(page, "a report compared with a baseline", ".changed-panel");
     await panel.getByRole("link").click();
     await page.locator("h1", { hasText: "Colored" }).or(page.getByText("FLIP mean")).first().waitFor();
     assert.match(page.url(), /#\/diff\/.*allow=/);
