@@ -34,8 +34,8 @@ TEST(JobLimits, TheCostIsWhatIsDrawn) {
 TEST(JobLimits, TheCostOfASweepIsThatOfItsPoints) {
     json spec = document();
     spec["sweep"] = {{{"pointer", "/image/width"}, {"values", {1000, 2000, 4000}}},
-                     {{"pointer", "/timing/rounds"}, {"values", {3, 7}}}};
-    EXPECT_DOUBLE_EQ(cost_mpx(parse_spec(spec)), (0.5 + 1 + 2) * 3 * (4 + 8));
+                     {{"pointer", "/scene/count"}, {"values", {3, 7}}}};
+    EXPECT_DOUBLE_EQ(cost_mpx(parse_spec(spec)), (0.5 + 1 + 2) * 2 * 3 * 4);
 }
 
 TEST(JobLimits, EachLimitNamesItsField) {
