@@ -2,19 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "renderer/core/exit_codes.h"
+#include "server/jobs/foreign_input.h"
 #include "server/process/child_message.h"
 
 namespace sheer {
 
-PixelAnswer run_pixel_child(const std::string& report, const PixelPlace& place, const std::filesystem::path& data,
+PixelAnswer run_pixel_child(const std::string& report, const PixelPlace& place, const PixelFolders& folders,
                             const ChildLimits& limits) {
-    const ChildReply reply =
-        ask_child({"pixel", "/dev/stdin", "--json", "--data", data.string(), fmt::format("--x={}", place.x),
-                   fmt::format("--y={}", place.y), fmt::format("--run={}", place.run)},
-                  report, limits);
+    std::vector<std::string> arguments = {"pixel",
+                                          "/dev/stdin",
+                                          "--json",
+                                          "--data",
+                                          folders.data.string(),
+                                          fmt::format("--x={}", place.x),
+                                          fmt::format("--y={}", place.y),
+                                          fmt::format("--run={}", place.run)};
+    if (!has_foreign_input(nlohmann::json::parse(report).at("spec")))
+        arguments.insert(arguments.end(), {"--shaders", folders.shaders.string()});
+    const ChildReply reply = ask_child(arguments, report, limits);
     if (reply.timed_out)
         return {.refusal = fmt::format("Explaining the pixel takes longer than {} s.",
                                        std::chrono::duration<double>(limits.time).count()),

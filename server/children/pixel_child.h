@@ -18,10 +18,16 @@ struct PixelAnswer {
     bool too_slow = false;
 };
 
-/// Runs `sheer pixel` on a done report of the archive in `data`, in a child that may die; the report is passed as a
+/// Of the service.
+struct PixelFolders {
+    std::filesystem::path data;     ///< with the archive
+    std::filesystem::path shaders;  ///< where the driver keeps compiled shaders; not used if has_foreign_input()
+};
+
+/// Runs `sheer pixel` on a done report of the archive, in a child that may die; the report is passed as a
 /// file that is only in memory. Throws std::runtime_error if the child dies or has an internal error, std::system_error
 /// if it cannot be started.
-PixelAnswer run_pixel_child(const std::string& report, const PixelPlace& place, const std::filesystem::path& data,
+PixelAnswer run_pixel_child(const std::string& report, const PixelPlace& place, const PixelFolders& folders,
                             const ChildLimits& limits);
 
 }  // namespace sheer

@@ -123,7 +123,8 @@ void serve(const ServeOptions& options) {
                           .pixel =
                               [&config, &store](const std::string& report, const PixelPlace& place) {
                                   store.bring_here(report);
-                                  return run_pixel_child(report, place, config.data, config.question);
+                                  return run_pixel_child(
+                                      report, place, {config.data, DataFolder{config.data}.shaders()}, config.question);
                               },
                           .diff =
                               [&config, &store](const DiffQuestion& question) {

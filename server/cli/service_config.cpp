@@ -98,7 +98,7 @@ Section general_settings() {
         {{Param::text("listen", "ADDRESS:PORT; port 0 takes any free port, which is printed on standard output",
                       defaults.listen, 200),
           [](ServiceConfig& config, const json& value) { config.listen = value; }},
-         {Param::text("data", "folder of the archive: `archive.sqlite`, `blobs/`, `assets/`, `scratch/`",
+         {Param::text("data", "folder of the archive: `archive.sqlite`, `blobs/`, `assets/`, `scratch/`, `shaders/`",
                       defaults.data.string(), 4096),
           [](ServiceConfig& config, const json& value) { config.data = value.get<std::string>(); }},
          {Param::text("store",

@@ -44,6 +44,7 @@ void work(const WorkerArguments& arguments) {
     take_store_environment(url);
     WorkerOptions options = config.worker;
     options.scratch = DataFolder{data}.scratch();
+    options.shaders = DataFolder{data}.shaders();
     options.data = data.string();
     // Renderers look there for the qualification of their device.
     setenv("SHEER_STATE", std::filesystem::absolute(data).c_str(), 1);

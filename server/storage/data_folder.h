@@ -14,6 +14,8 @@ struct DataFolder {
     std::filesystem::path assets() const { return root / "assets"; }
     /// Output of renderers until it is committed.
     std::filesystem::path scratch() const { return root / "scratch"; }
+    /// Compiled shaders that drivers keep from one job to the next.
+    std::filesystem::path shaders() const { return root / "shaders"; }
     /// What a repair has set aside.
     std::filesystem::path quarantine() const { return root / "quarantine"; }
     /// A file that reserves space, which is given up if a deletion needs it.

@@ -4,10 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <future>
+#include <nlohmann/json.hpp>
 
 #include "renderer/core/errors.h"
 #include "renderer/core/exit_codes.h"
 #include "renderer/core/files.h"
+#include "server/jobs/foreign_input.h"
 #include "server/worker/against.h"
 #include "server/worker/report_folder.h"
 #include "server/worker/scratch.h"
@@ -50,6 +52,8 @@ ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
     run.options.program = m_options.program;
     run.options.fork_server = m_options.fork_server;
     run.options.arguments = {"render", spec.string(), "--out", out.string(), "--data", m_options.data};
+    if (!m_options.shaders.empty() && !has_foreign_input(nlohmann::json::parse(m_lease.spec)))
+        run.options.arguments.insert(run.options.arguments.end(), {"--shaders", m_options.shaders.string()});
     add_device(run.options.arguments, m_options);
     confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;

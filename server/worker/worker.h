@@ -17,6 +17,7 @@ namespace sheer {
 
 struct WorkerOptions {
     std::filesystem::path scratch;  ///< the folder that renderers write to
+    std::filesystem::path shaders;  ///< the folder where drivers keep compiled shaders; empty for none
     std::string data;               ///< tells a renderer which store holds the uploaded files
     std::string name;               ///< unique among all workers that ever lived
     std::string label = "local";    ///< see JobQueue::lease()

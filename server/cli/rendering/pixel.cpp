@@ -19,6 +19,7 @@
 #include "server/cli/rendering/failure.h"
 #include "server/cli/rendering/rendering.h"
 #include "server/cli/rendering/sandbox_option.h"
+#include "server/cli/rendering/shader_folder.h"
 #include "server/storage/content_folder.h"
 
 namespace sheer::cli {
@@ -33,6 +34,7 @@ struct PixelArguments {
     bool as_json = false;
     gl::ContextRequest context;
     SandboxOption sandbox;
+    ShaderFolder shaders;
 };
 
 /// Pictures by their SHA-256.
@@ -186,7 +188,9 @@ int print_json(const PixelArguments& options) {
     json line;
     int exit_code = exit_ok;
     try {
-        options.sandbox.confine_files(stored_files(options.data));
+        OpenFiles files = stored_files(options.data);
+        options.shaders.open(files);
+        options.sandbox.confine_files(std::move(files));
         line = to_document(Subject(options).pixel());
     } catch (const UsageError& error) {
         line = {{"error", {{"kind", "usage"}, {"detail", error.what()}, {"errors", json::array()}}}};
@@ -219,6 +223,7 @@ void add_pixel(CLI::App& app, int& exit_code) {
         ->group("");
     add_context_options(*command, options->context);
     options->sandbox.add_to(*command);
+    options->shaders.add_to(*command);
     command->footer("Example: sheer pixel out --x 200 --y 120");
     command->callback([options, &exit_code] {
         exit_code = options->as_json ? print_json(*options) : guarded([&] { return print_pixel(*options); });

@@ -19,6 +19,7 @@
 #include "server/cli/rendering/failure.h"
 #include "server/cli/rendering/rendering.h"
 #include "server/cli/rendering/sandbox_option.h"
+#include "server/cli/rendering/shader_folder.h"
 #include "server/http/paths.h"
 
 namespace sheer::cli {
@@ -32,6 +33,7 @@ struct RenderArguments {
     bool probe = false;
     gl::ContextRequest context;
     SandboxOption sandbox;
+    ShaderFolder shaders;
 };
 
 void say(const json& line) {
@@ -62,6 +64,7 @@ std::unique_ptr<gl::Context> open_confined(const RenderArguments& options) {
         std::filesystem::create_directories(options.out);
         files.write.emplace_back(options.out);
     }
+    options.shaders.open(files);
     options.sandbox.confine_files(std::move(files));
     auto context = gl::open_device(options.context);
     options.sandbox.confine_calls();
@@ -106,6 +109,7 @@ void add_render(CLI::App& app, int& exit_code) {
     command->add_flag("--probe", options->probe, "Render one pixel and nothing else");
     add_context_options(*command, options->context);
     options->sandbox.add_to(*command);
+    options->shaders.add_to(*command);
     command->callback([options, &exit_code] { exit_code = run_render(*options); });
 }
 
