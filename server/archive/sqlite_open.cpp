@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 #include "server/archive/sqlite_functions.h"
 #include "server/jobs/store_errors.h"
@@ -38,10 +37,21 @@ std::uint32_t big_endian(const char* bytes, int count) {
     return value;
 }
 
+/// The first bytes, by SQLite: if this process opened the file itself, closing it would drop the locks of all its
+/// connections (POSIX advisory locks), and the next process that ends would delete the log under them.
+std::array<char, header_bytes> header_of(const fs::path& file) {
+    std::array<char, header_bytes> header{};
+    const SQLite::Database unread(file.string(), SQLite::OPEN_READONLY);
+    sqlite3_file* opened = nullptr;
+    if (sqlite3_file_control(unread.getHandle(), "main", SQLITE_FCNTL_FILE_POINTER, &opened) == SQLITE_OK &&
+        opened->pMethods != nullptr)
+        opened->pMethods->xRead(opened, header.data(), static_cast<int>(header.size()), 0);
+    return header;
+}
+
 /// How long the file must be according to its header (the SQLite file format, 1.3); 0 if it is not a database.
 std::uintmax_t size_by_header(const fs::path& file) {
-    std::array<char, header_bytes> header{};
-    std::ifstream(file, std::ios::binary).read(header.data(), header.size());
+    const std::array<char, header_bytes> header = header_of(file);
     if (std::string_view(header.data(), 16) != std::string_view("SQLite format 3\0", 16)) return 0;
     const std::uint32_t page_bytes = big_endian(&header[16], 2);
     return std::uintmax_t{page_bytes == 1 ? 65536 : page_bytes} * big_endian(&header[28], 4);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <future>
 
 #include "embedded_server_files.h"
@@ -44,6 +45,23 @@ TEST_F(SqliteStoreTest, ATextOfAnotherReportIsNotServed) {
     move("kept", two);
     EXPECT_THROW(m_reports.find(one), DamagedData);
     EXPECT_THROW(m_reports.find(two), DamagedData);
+}
+
+/// The last process that closes the database deletes its log. It knows of the others by their locks on the file, which
+/// a process loses if it opens and closes that file itself.
+TEST_F(SqliteStoreTest, AnotherProcessThatEndsLeavesTheLog) {
+    submit("before");
+    const auto log = m_data.database().string() + "-wal";
+    ASSERT_TRUE(std::filesystem::exists(log));
+    const std::string other =
+        "sqlite3 " + m_data.database().string() + " 'SELECT count(*) FROM sqlite_schema' > /dev/null";
+    EXPECT_EQ(m_reports.list({}).reports.size(), 1u);  // opens a reader
+    ASSERT_EQ(std::system(other.c_str()), 0);
+    EXPECT_TRUE(std::filesystem::exists(log));
+    submit("after");
+    SQLite::Database database(m_data.database().string(), SQLite::OPEN_READONLY);
+    EXPECT_EQ(database.execAndGet("SELECT count(*) FROM reports").getInt(), 2);
+    EXPECT_EQ(database.execAndGet("PRAGMA integrity_check").getString(), "ok");
 }
 
 TEST_F(SqliteStoreTest, AnArchiveOfALaterVersionIsLeftAlone) {
