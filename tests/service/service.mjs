@@ -35,12 +35,12 @@ export function lasting(seconds, title = "lasting") {
 }
 
 /** Repeats `question` until it returns something true. */
-export async function until(question, what, limit_s = 60) {
+export async function until(question, what, limit_s = 60, pause_ms = 20) {
   const deadline = Date.now() + limit_s * 1000;
   while (Date.now() < deadline) {
     const answer = await question();
     if (answer) return answer;
-    await sleep(20);
+    await sleep(pause_ms);
   }
   assert.fail(`${what}: not within ${limit_s} s`);
 }
@@ -100,6 +100,7 @@ export class Service {
     this.listen = "127.0.0.1:0";
     this.wrapper = []; // a command that starts the program
     this.program = PROGRAM;
+    this.holds_to_contract = true; // checks every answer, which takes longer than most answers
     writeFileSync(this.config, JSON.stringify(config));
     if (STORE) this.make_database();
   }
@@ -144,7 +145,7 @@ export class Service {
     assert.ok(line(), `the service ended: ${this.log}`);
     this.origin = new URL(line()[1]).origin;
     this.api = `${this.origin}/api/v1`;
-    await hold_to_contract(this.origin, this.program);
+    if (this.holds_to_contract) await hold_to_contract(this.origin, this.program);
     return this;
   }
 

@@ -1,0 +1,80 @@
+// Thousands of connections that are idle or slow: the service keeps answering, and the slow ones are closed.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { connect } from "node:net";
+import { after, before, test } from "node:test";
+import { QUICK, Service, sleep, until } from "../service/service.mjs";
+import { SIZE } from "./random.mjs";
+
+const COUNT = Math.min(2000 * SIZE, 10_000);
+const LIMITS = { header_timeout_s: 2, body_timeout_s: 2, write_timeout_s: 2, idle_timeout_s: 2, event_heartbeat_s: 1 };
+const service = new Service({ workers: 0, http: LIMITS });
+service.holds_to_contract = false;
+before(() => service.start());
+after(() => service.end_well());
+
+const memory_mib = () =>
+  Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${service.process.pid}/status`, "utf8"))[1]) / 1024;
+
+/** A client that sends `bytes`, and then nothing; a deaf one does not read either. */
+function open(bytes, is_deaf) {
+  const socket = connect(new URL(service.origin).port, "127.0.0.1");
+  socket.on("connect", () => bytes && socket.write(bytes));
+  socket.on("error", () => {});
+  socket.on("close", () => {
+    socket.is_closed = true;
+  });
+  if (is_deaf) socket.pause();
+  else socket.resume();
+  return socket;
+}
+
+/** Asks on a new connection, as a balancer does; returns the time in milliseconds. */
+async function probe() {
+  const begin = performance.now();
+  assert.equal((await service.raw("GET", "/healthz", { Connection: "close" })).status, 200);
+  return performance.now() - begin;
+}
+
+async function crowd(name, bytes, { is_deaf = false, stay = false } = {}) {
+  const sockets = [],
+    times_ms = [];
+  for (let i = 0; i < COUNT; ++i) {
+    sockets.push(open(bytes, is_deaf));
+    if (i % 100 === 99) times_ms.push(await probe());
+  }
+  // Whoever is slow is closed; a socket that does not read does not notice it until it writes.
+  for (let i = 0; i < 20; ++i) {
+    times_ms.push(await probe());
+    await sleep(100);
+  }
+  if (!stay && !is_deaf) await until(() => sockets.every((socket) => socket.is_closed), `${name}: all are closed`, 60);
+  for (const socket of sockets) socket.destroy();
+  times_ms.sort((a, b) => a - b);
+  const at = (part) => times_ms[Math.floor(part * (times_ms.length - 1))].toFixed(1);
+  console.log(`${COUNT} ${name}: a probe takes ${at(0.5)} ms, at most ${at(1)} ms; ${memory_mib().toFixed(0)} MiB`);
+}
+
+test("idle connections", () => crowd("idle connections", ""));
+test("slow headers", () => crowd("slow headers", "GET / HTTP/1.1\r\nHost: local"));
+test("slow bodies", () =>
+  crowd(
+    "slow bodies",
+    "POST /api/v1/specs/validate HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 99\r\n\r\n{",
+  ));
+/** Each is owed up to 40 large answers; the service makes one at a time. */
+const deaf = () =>
+  crowd("clients that do not read", "GET /api/v1/openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n".repeat(40), {
+    is_deaf: true,
+  });
+test("clients that do not read take memory once", async () => {
+  await deaf();
+  const once = memory_mib();
+  await deaf();
+  assert.ok(memory_mib() < once * 1.25, `${once} and ${memory_mib()} MiB`);
+});
+test("streams of events", async () => {
+  const id = await service.submit(QUICK);
+  await crowd("streams", `GET /api/v1/reports/${id}/events HTTP/1.1\r\nHost: localhost\r\n\r\n`, { stay: true });
+  await fetch(`${service.api}/reports/${id}`, { method: "DELETE" });
+});
