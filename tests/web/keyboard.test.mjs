@@ -140,7 +140,7 @@ walk_test("a sweep: a point is chosen in a chart and in the grid", {}, async (pa
 });
 
 walk_test("the archive, a diff, a trend and the baselines", {}, async (page) => {
-  const [first, second] = [await finished({ ...SMALL, title: "A" }), await finished({ ...SMALL, title: "B" })];
+  const [first, second] = [await finished(SMALL), await finished(SMALL)];
   await open(page, "#/reports", ".entry");
   for (const { id } of [first, second]) await page.locator(`.entry[data-id="${id}"] input`).press("Space");
   await page.getByText("Two reports of the same spec are chosen.").waitFor();

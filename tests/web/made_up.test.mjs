@@ -11,6 +11,7 @@ tests.page_test("a report has the metric's column in its place, with the best ma
   const { id } = await tests.post_report(spec, { Prefer: "wait=60" });
   await page.goto(`${tests.url()}/#/reports/${id}`);
   const table = page.locator("table.differences");
+  await table.waitFor();
   const heads = await table.locator("thead th").allTextContents();
   assert.equal(heads.indexOf("Rednessreds"), heads.indexOf("Max Δlevels") + 1, heads.join());
   const values = await table_values(page, "differences");
