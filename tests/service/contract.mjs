@@ -27,6 +27,7 @@ export class Contract {
     this.document = document;
     this.prefix = document.servers[0].url.replace(/\/$/, "");
     this.ajv = new_ajv();
+    this.right = new Set(); // answers that were checked: who waits gets the same one again and again
     for (const keyword of ["openapi", "info", "servers", "security", "tags", "paths", "components"])
       this.ajv.addKeyword(keyword);
     this.ajv.addSchema(document, "api");
@@ -58,7 +59,9 @@ export class Contract {
   /** A reply that is not described can only be a problem. */
   require_answer({ method, target, status, type, text }) {
     if (!is_json(type) || !text) return;
-    const path = target.split("?")[0];
+    const path = target.split("?")[0],
+      answer = `${method} ${path} ${status} ${type} ${text}`;
+    if (this.right.has(answer)) return;
     const responses = this.operation(method, path)?.responses ?? {};
     const response = responses[status] ?? responses.default;
     const problem = { "application/problem+json": { schema: { $ref: "#/components/schemas/Problem" } } };
@@ -68,6 +71,7 @@ export class Contract {
       JSON.parse(text),
       `the answer ${status} to ${method} ${path}, ${media_type_of(type)},`,
     );
+    this.right.add(answer);
   }
 
   /** The body of an accepted request. */

@@ -35,7 +35,7 @@ export function lasting(seconds, title = "lasting") {
 }
 
 /** Repeats `question` until it returns something true. */
-export async function until(question, what, limit_s = 60, pause_ms = 20) {
+export async function until(question, what, limit_s = 60, pause_ms = 50) {
   const deadline = Date.now() + limit_s * 1000;
   while (Date.now() < deadline) {
     const answer = await question();
