@@ -23,18 +23,25 @@ test("the result is kept for the user, and quoted by sheer compare", () => {
   const compare = () =>
     JSON.parse(sheer(["compare", "-", "--json", "-q"], folder, JSON.stringify(QUICK)).stdout).qualification;
   assert.equal(compare(), null);
-  const table = sheer(MEASURE, folder);
-  assert.equal(table.status, 0, table.stderr);
-  assert.match(table.stdout, /^ +50 % +\d\.\d+x/m);
-  assert.match(table.stdout, /A change of nothing was called a change \d+ times in \d+/);
-  const [kept] = JSON.parse(readFileSync(join(folder, "sheer", "qualifications.json"), "utf8"));
+  const measured = () => {
+    const table = sheer(MEASURE, folder);
+    assert.equal(table.status, 0, table.stderr);
+    assert.match(table.stdout, /^ +50 % +\d\.\d+x/m);
+    assert.match(table.stdout, /A change of nothing was called a change \d+ times in \d+/);
+    return JSON.parse(readFileSync(join(folder, "sheer", "qualifications.json"), "utf8"));
+  };
+  // Half more work is a good deal slower on any device, but a second on a busy one may not show it.
+  const shows_it = ([{ slowdowns }]) => slowdowns.at(-1).slowdown > slowdowns[0].slowdown;
+  const tries = [measured()];
+  while (!shows_it(tries.at(-1)) && tries.length < 5) tries.push(measured());
+  assert.ok(shows_it(tries.at(-1)), JSON.stringify(tries));
+  const [kept, ...others] = tries.at(-1);
+  assert.deepEqual(others, []);
   assert.deepEqual(compare(), kept);
   assert.deepEqual(
     kept.slowdowns.map(({ more_work }) => more_work),
     [0.01, 0.02, 0.05, 0.1, 0.2, 0.5],
   );
-  // Half more work is a good deal slower on any device, however busy.
-  assert.ok(kept.slowdowns.at(-1).slowdown > kept.slowdowns[0].slowdown, table.stdout);
   assert.ok(kept.comparisons >= 2 && kept.false_changes <= kept.comparisons);
 });
 
