@@ -28,4 +28,14 @@ inline void require_readable(std::string_view message) {
     for (const char c : message) require(c == '\n' || (c >= ' ' && c <= '~'), "a message that is not printable ASCII");
 }
 
+/// Reads; refusing the input by `Refusal`, with a readable message, is right as well.
+template <typename Refusal, typename Read>
+void read_or_refuse(const Read& read) {
+    try {
+        read();
+    } catch (const Refusal& error) {
+        require_readable(error.what());
+    }
+}
+
 }  // namespace sheer::test

@@ -12,12 +12,10 @@ void read_glsl(std::string_view input) {
         for (const char c : text) count += c == '\n';
         return count;
     };
-    try {
+    read_or_refuse<GlslError>([&] {
         const GlslShading shading = make_glsl_shading(std::string(input));
         require(lines(shading.function) >= lines(input), "a function that lacks lines");
-    } catch (const GlslError& error) {
-        require_readable(error.what());
-    }
+    });
     user_messages(std::string(input));
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 /// glTF, as text or binary: a model that is not refused has whole triangles of vertices that exist.
 void read_gltf(std::string_view input) {
-    try {
+    read_or_refuse<AssetError>([&] {
         const Model model = read_model(input, no_other_files);
         std::size_t indices = 0, vertices = 0;
         for (const ModelPart& part : model.parts) {
@@ -19,9 +19,7 @@ void read_gltf(std::string_view input) {
             vertices += part.vertices.size();
         }
         require(indices > 0 && indices <= 3 * max_model_triangles && vertices <= max_model_vertices, "over a limit");
-    } catch (const AssetError& error) {
-        require_readable(error.what());
-    }
+    });
 }
 
 }  // namespace

@@ -9,13 +9,11 @@ namespace {
 
 /// A picture that is not refused is complete and finite.
 void read_pixels(std::string_view input) {
-    try {
+    read_or_refuse<AssetError>([&] {
         const Picture picture = read_picture(input, 4, 4);
         require(picture.image.rgba.size() == 4 * 4 * 4, "a picture of another size");
         for (const float value : picture.image.rgba) require(std::isfinite(value) && value >= 0, "a value not finite");
-    } catch (const AssetError& error) {
-        require_readable(error.what());
-    }
+    });
 }
 
 }  // namespace
