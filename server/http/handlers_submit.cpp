@@ -9,6 +9,7 @@
 #include "renderer/spec/shaders.h"
 #include "renderer/spec/spec.h"
 #include "server/http/application.h"
+#include "server/http/job_limits.h"
 #include "server/http/paths.h"
 #include "server/http/problem.h"
 #include "server/http/queue_speed.h"

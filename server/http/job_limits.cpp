@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "renderer/spec/spec.h"
+
 namespace sheer::http {
 
 namespace {

@@ -2,8 +2,6 @@
 #include <chrono>
 #include <cstdint>
 
-#include "server/http/job_limits.h"
-
 namespace sheer::http {
 
 // The fields of the configuration describe each limit and its range: server/cli/service_config.cpp.
@@ -22,6 +20,14 @@ struct Limits {
     std::chrono::milliseconds write_timeout{30'000};
     std::chrono::milliseconds event_heartbeat{15'000};
     std::chrono::milliseconds stop_timeout{5'000};
+};
+
+/// What one comparison may ask for, besides the limits that every spec has.
+struct JobLimits {
+    std::int64_t max_pixels = 4096 * 4096;  ///< of one picture
+    std::int64_t max_methods = 64;
+    std::int64_t max_points = 256;  ///< of its sweep
+    std::int64_t max_cost = 1'000'000'000;
 };
 
 /// What one request may ask for.

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "renderer/spec/spec.h"
+
 namespace sheer::http::job_limits_test {
 
 namespace {
