@@ -56,7 +56,7 @@ class Hand {
         gl::FrameTimer::Frame frame = timer.frame(false);
         OpaquePass(m_context->gl(), scene, target).draw(timer);
         Pass pass(m_context->gl(), target);
-        scene.draw_transparent(program, Order::submission);
+        scene.draw_transparent(program, sheer::Order::submission);
         frame.end();
         return target.read();
     }
