@@ -23,6 +23,12 @@ void add_default(Headers& headers, const char* name, const char* value) {
     if (!headers.contains(name)) headers.add(name, value);
 }
 
+Response try_again(const std::string& detail) {
+    Response response = problem(503, detail);
+    response.headers.add("Retry-After", "5");
+    return response;
+}
+
 /// The result of `work`, or the problem with which it ends.
 template <typename Result, typename Work>
 Result caught(const Request& request, const Work& work) {
@@ -37,9 +43,10 @@ Result caught(const Request& request, const Work& work) {
         return problem(507, fmt::format("There is no room: {}.", full.what()));
     } catch (const StoreUnreachable& lost) {
         spdlog::error("{} {}: {}", request.method, request.target, lost.what());
-        Response response = problem(503, "The store cannot be reached at present.");
-        response.headers.add("Retry-After", "5");
-        return response;
+        return try_again("The store cannot be reached at present.");
+    } catch (const DiskError& failed) {
+        spdlog::error("{} {}: {}", request.method, request.target, failed.what());
+        return try_again("The disk of the store failed; the service's log says how.");
     } catch (const DamagedData& damaged) {
         spdlog::error("{} {}: {}", request.method, request.target, damaged.what());
         return problem(500, fmt::format("The archive is damaged: {}.", damaged.what()));

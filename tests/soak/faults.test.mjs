@@ -51,7 +51,7 @@ async function acknowledged(service, spec, key) {
   for (;;) {
     const answer = await service.post(spec, { "Idempotency-Key": key }).catch(() => null);
     if (answer?.status === 202) return (await answer.json()).id;
-    if (answer) assert.ok([503, 507].includes(answer.status), `${answer.status} ${await answer.text()}`);
+    if (answer) assert.ok([503, 507].includes(answer.status), `${answer.status} ${await answer.text()} ${service.log}`);
     await restart_if_killed(service);
     await sleep(50);
   }

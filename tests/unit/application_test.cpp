@@ -94,6 +94,30 @@ TEST_F(ApplicationTest, AFullQueueSaysWhenToTryAgain) {
     EXPECT_EQ(stored(), 2u);
 }
 
+TEST_F(ApplicationTest, TheQueueIsLimitedByWorkToo) {
+    m_service.limits.max_queued_cost = 1;  // a comparison of 512 x 512 pixels has a cost of several megapixels
+    EXPECT_EQ(post(m_spec).status, 202);
+    const Response full = post(m_spec);
+    EXPECT_EQ(full.status, 429);
+    EXPECT_TRUE(full.headers.contains("Retry-After"));
+    EXPECT_EQ(stored(), 1u);
+}
+
+TEST_F(ApplicationTest, WhatFailsSaysWhetherToTryAgain) {
+    const auto failing = [&](auto error) {
+        m_service.list_devices = [error]() -> json { throw error; };
+        return get("/api/v1/devices");
+    };
+    const Response unreachable = failing(StoreUnreachable("x")), broken = failing(DiskError("x"));
+    EXPECT_EQ(unreachable.status, 503);
+    EXPECT_TRUE(unreachable.headers.contains("Retry-After"));
+    EXPECT_EQ(broken.status, 503);
+    EXPECT_TRUE(broken.headers.contains("Retry-After"));
+    EXPECT_EQ(failing(StoreFull("x")).status, 507);
+    EXPECT_EQ(failing(DamagedData("x")).status, 500);
+    EXPECT_EQ(failing(std::runtime_error("x")).status, 500);
+}
+
 TEST_F(ApplicationTest, AnIdempotencyKeyGivesTheSameReport) {
     const Response first = post(m_spec, {{"Idempotency-Key", "k"}});
     // The same document, written in another way.
