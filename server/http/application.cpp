@@ -133,7 +133,7 @@ Response Application::sent(Response response, const Request& request) const {
     response = m_prefix.put_before(std::move(response));
     choose_coding(response, request);
     m_guard.permit(request, response.headers);
-    return encoded(finished(unless_known(std::move(response), request, etag)));
+    return encoded(finished(unless_known(std::move(response), request, etag)), request.target, *m_packed);
 }
 
 Answer Application::answer(Request request) const {

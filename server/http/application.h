@@ -1,5 +1,8 @@
 #pragma once
+#include <memory>
+
 #include "server/http/access.h"
+#include "server/http/body_cache.h"
 #include "server/http/guard.h"
 #include "server/http/message.h"
 #include "server/http/path_prefix.h"
@@ -29,6 +32,7 @@ class Application {
     Router m_router;
     PathPrefix m_prefix;
     Access m_access;
+    std::shared_ptr<BodyCache> m_packed = std::make_shared<BodyCache>(std::size_t{32} << 20);
 };
 
 /// Added to every response: headers that protect against misuse by other sites.

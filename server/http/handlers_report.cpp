@@ -5,6 +5,7 @@
 #include "renderer/files/html.h"
 #include "renderer/report/markdown.h"
 #include "renderer/report/report.h"
+#include "server/http/body_cache.h"
 #include "server/http/problem.h"
 #include "server/http/report_view.h"
 #include "server/http/report_zip.h"
@@ -27,13 +28,18 @@ ReportRecord found_report(Service& service, const Request& request) {
     return found_report(service.store, request);
 }
 
-Answer get_html(Service& service, const Request& request) {
-    const report::Report report = done_report(service.store, request.path_values.at("id"));
+constexpr std::size_t kept_pages_bytes = 32 << 20;
+
+Answer get_html(Service& service, BodyCache& pages, const Request& request) {
+    const ReportRecord record = done_record(service.store, request.path_values.at("id"));
     const auto read_picture = [&service](const report::Picture& picture) {
         return picture_bytes(service.store, picture);
     };
-    Response response = text_response(200, report_html(report, read_picture), "text/html; charset=utf-8");
+    const std::string page = pages.get(record.id, [&] { return report_html(report_of(record), read_picture); });
+    Response response = text_response(200, page, "text/html; charset=utf-8");
     response.headers.add("Content-Security-Policy", page_policy);
+    response.headers.add("ETag", fmt::format("\"{}-page\"", record.id));
+    response.headers.add("Cache-Control", "no-cache");
     return response;
 }
 
@@ -150,8 +156,10 @@ std::vector<Route> report_routes(Service& service) {
               }),
         std::move(events),
         route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
-              {{200, "The page", "text/html", ""}, not_done},
-              [&service](const Request& request) { return get_html(service, request); }),
+              {{200, "The page", "text/html", "", {"ETag"}}, not_done},
+              [&service, pages = std::make_shared<BodyCache>(kept_pages_bytes)](const Request& request) {
+                  return get_html(service, *pages, request);
+              }),
         route("GET", "/junit.xml", "getReportJunit",
               "The checks of a report as JUnit XML; one that failed or was cancelled has an <error>",
               {{200, "The checks", "application/xml", "", {}, "Junit"},

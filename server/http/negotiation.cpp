@@ -123,9 +123,11 @@ void choose_coding(Response& response, const Request& request) {
     if (const auto etag = response.headers.find("ETag")) response.headers.set("ETag", with_mark(*etag));
 }
 
-Response encoded(Response response) {
+Response encoded(Response response, const std::string& target, BodyCache& known) {
     auto* text = std::get_if<std::string>(&response.body);
-    if (text != nullptr && !text->empty() && response.headers.contains("Content-Encoding")) *text = gzipped(*text);
+    if (text == nullptr || text->empty() || !response.headers.contains("Content-Encoding")) return response;
+    const auto etag = response.headers.find("ETag");
+    *text = etag ? known.get(*etag + " " + target, [&] { return gzipped(*text); }) : gzipped(*text);
     return response;
 }
 

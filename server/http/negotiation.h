@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "server/http/body_cache.h"
 #include "server/http/message.h"
 
 namespace sheer::http {
@@ -20,8 +21,8 @@ std::string gzipped(std::string_view text);
 /// Decides whether to compress the body of an answer: if that is worth it and the request allows it. The compressed
 /// form is another representation, so it has an ETag of its own, which `without_coding` leads back to the original's.
 void choose_coding(Response& response, const Request& request);
-/// With its body in the coding that was chosen.
-Response encoded(Response response);
+/// With its body in the coding that was chosen. `known` keeps what has an ETag, by that and the target.
+Response encoded(Response response, const std::string& target, BodyCache& known);
 
 /// The request with the ETags of the original in place of those of compressed forms.
 Request without_coding(Request request);

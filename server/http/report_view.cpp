@@ -109,12 +109,16 @@ report::Report report_of(const ReportRecord& record) {
     }
 }
 
-report::Report done_report(Store& store, const std::string& id) {
-    const auto record = store.reports().find(id);
+ReportRecord done_record(Store& store, const std::string& id) {
+    auto record = store.reports().find(id);
     if (!record) throw Problem(404, fmt::format("There is no report \"{}\".", id));
     if (record->status != Status::done)
         throw Problem(409, fmt::format("The report {} is not done: it is {}.", id, status_text(record->status)));
-    return report_of(*record);
+    return std::move(*record);
+}
+
+report::Report done_report(Store& store, const std::string& id) {
+    return report_of(done_record(store, id));
 }
 
 std::string event_name(Status status) {

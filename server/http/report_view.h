@@ -18,6 +18,8 @@ ReportRecord found_report(Store& store, const Request& request);
 nlohmann::json stored_json(const std::string& text, const std::string& what);
 /// The report of a record, whatever its status. Throws DamagedData.
 report::Report report_of(const ReportRecord& record);
+/// The record of the done report `id`. Throws Problem (404, 409).
+ReportRecord done_record(Store& store, const std::string& id);
 /// The done report `id`. Throws Problem (404, 409), DamagedData.
 report::Report done_report(Store& store, const std::string& id);
 /// The bytes of a picture of a report, which are known to match its SHA-256. Throws DamagedData.

@@ -42,10 +42,11 @@ class Coding : public testing::Test {
         Response response = text_response(200, std::move(body), type);
         response.headers.add("ETag", "\"x\"");
         choose_coding(response, m_request);
-        return encoded(std::move(response));
+        return encoded(std::move(response), "/" + type, m_known);
     }
 
     Request m_request;
+    BodyCache m_known{1 << 20};
 };
 
 TEST_F(Coding, LongTextsAreCompressedForThoseWhoAcceptIt) {
@@ -57,6 +58,18 @@ TEST_F(Coding, LongTextsAreCompressedForThoseWhoAcceptIt) {
     EXPECT_EQ(packed.headers.find("Content-Encoding"), "gzip");
     EXPECT_EQ(packed.headers.find("Vary"), "Accept-Encoding");
     EXPECT_EQ(packed.headers.find("ETag"), "\"x-gzip\"");
+}
+
+/// What has an ETag is compressed once, under its address.
+TEST_F(Coding, CompressedFormsAreKept) {
+    m_request.headers.add("Accept-Encoding", "gzip");
+    const auto packed = [&](char letter, const std::string& type) {
+        return std::get<std::string>(answer(std::string(2000, letter), type).body);
+    };
+    const std::string first = packed('a', "text/plain");
+    EXPECT_EQ(packed('b', "text/plain"), first) << "the ETag says that it is the same";
+    EXPECT_NE(packed('b', "text/css"), first);
+    EXPECT_EQ(packed('a', "text/html"), first);
 }
 
 TEST_F(Coding, ShortOnesPicturesAndStreamsAreNot) {
