@@ -151,7 +151,8 @@ void serve(const ServeOptions& options) {
          .changes = store.watch(),
          .reload = [&options, &running] { reload(options, running); },
          .alive = ServiceManager::alive,
-         .alive_interval = ServiceManager::watchdog_interval()});
+         .alive_interval = ServiceManager::watchdog_interval(),
+         .spool = DataFolder{config.data}.scratch()});
     Supervisor workers(store.queue(), supervisor_options(config, options, store_environment));
     fmt::print("Sheer listens on {}{}\n", http::url_of(server.endpoint()), config.path_prefix);
     std::fflush(stdout);

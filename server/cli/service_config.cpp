@@ -172,6 +172,10 @@ Section http_settings() {
                of_connections(&Limits::body_bytes)),
          bytes("drain_bytes", "part of a too long body that is read and dropped, so that its sender sees the 413", 0,
                16 * gibibyte, of_connections(&Limits::drain_bytes)),
+         bytes("spool_bytes",
+               "uploads on their way, all together, which are in `scratch/` until they are complete; beyond it they "
+               "get 503",
+               mebibyte, 1024 * gibibyte, of_connections(&Limits::spool_bytes)),
          seconds("idle_timeout_s", "time between two requests on a connection", day_s,
                  of_connections(&Limits::idle_timeout)),
          seconds("header_timeout_s", "time for a request's header to arrive", day_s,

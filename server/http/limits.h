@@ -14,6 +14,7 @@ struct Limits {
     std::uint32_t header_bytes = 16 << 10;
     std::uint64_t body_bytes = 1 << 20;
     std::uint64_t drain_bytes = 64 << 20;
+    std::uint64_t spool_bytes = 1 << 30;
     std::chrono::milliseconds idle_timeout{60'000};
     std::chrono::milliseconds header_timeout{10'000};
     std::chrono::milliseconds body_timeout{30'000};

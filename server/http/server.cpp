@@ -80,6 +80,7 @@ class Server::Impl {
                     .spec_pool = m_spec_pool,
                     .changes = m_changes,
                     .lasting = LastingAnswers(m_limits),
+                    .spool = std::move(hooks.spool),
                     .sessions = {},
                     .stopping = false,
                     .on_end = [this] { session_ended(); }},

@@ -40,6 +40,8 @@ class Server {
         std::function<void()> reload;                ///< on SIGHUP; on the thread of the connections
         std::function<void()> alive = {};            ///< every `alive_interval`, on the same thread
         std::chrono::milliseconds alive_interval{};  ///< 0: never
+        /// Folder for long bodies on their way; files there have no names.
+        std::filesystem::path spool = std::filesystem::temp_directory_path();
     };
 
     /// Listens at once; connections wait until `run`. Throws std::runtime_error.

@@ -15,6 +15,7 @@
 #include "server/http/pool_work.h"
 #include "server/http/problem.h"
 #include "server/http/request_head.h"
+#include "server/http/spooled_body.h"
 
 namespace sheer::http {
 
@@ -37,6 +38,8 @@ constexpr std::chrono::milliseconds newcomer_time{250};
 constexpr std::string_view sign_of_life = ":\n\n";
 // The part of a picture that is read and sent at a time.
 constexpr std::uint64_t piece_bytes = 64 << 10;
+// A longer body goes to a file until it is complete.
+constexpr std::uint64_t longest_body_in_memory = 1 << 20;
 // For a probe's request on a connection beyond the limit.
 constexpr std::chrono::seconds spare_timeout{2};
 
@@ -49,7 +52,7 @@ std::string http_date() {
     return {text.data(), std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc)};
 }
 
-Request request_without_body(const bhttp::request<bhttp::string_body>& message) {
+Request request_without_body(const bhttp::request<bhttp::empty_body>& message) {
     Request request;
     request.method = std::string(message.method_string());
     request.target = std::string(message.target());
@@ -105,7 +108,7 @@ class TcpSession : public Session {
     bool is_over() const override { return m_over; }
 
   private:
-    using Parser = bhttp::request_parser<bhttp::string_body>;
+    using HeadParser = bhttp::request_parser<bhttp::empty_body>;
 
     void close() {
         m_over = true;
@@ -121,7 +124,7 @@ class TcpSession : public Session {
         m_version = 11;
         const bool something = co_await wait_for_request();
         if (!something) co_return false;
-        Parser parser;
+        HeadParser parser;
         const beast::error_code header_error = co_await read_header(parser);
         m_head = parser.get().method() == bhttp::verb::head;
         if (header_error) co_return co_await reject(problem_of(header_error));
@@ -131,19 +134,48 @@ class TcpSession : public Session {
         if (auto wrong = check_head(request, m_version)) co_return co_await reject(std::move(wrong));
         const Handling handling = m_context.handling(request.method, request.target);
         if (m_seat == Seat::spare && !handling.is_probe) co_return co_await reject(too_many_connections());
-        const beast::error_code body_error =
-            co_await read_body(parser, handling.body_bytes.value_or(m_limits.body_bytes));
-        if (body_error) co_return co_await reject(problem_of(body_error));
-        request.body = std::move(parser.get().body());
+        std::optional<SpooledBody> spooled;
+        std::optional<Response> wrong_body;
+        try {
+            const beast::error_code body_error =
+                co_await read_body(parser, handling.body_bytes.value_or(m_limits.body_bytes), request.body, spooled);
+            if (body_error) co_return co_await reject(problem_of(body_error));
+        } catch (const std::system_error& error) {
+            wrong_body = no_room_for_body(request, error);
+        }
+        if (!wrong_body && spooled && m_context.spooled_bytes > m_limits.spool_bytes) wrong_body = too_many_bodies();
+        if (wrong_body) {
+            spooled.reset();
+            co_return co_await reject(std::move(wrong_body));
+        }
         m_dispensable_from.reset();
-        Answer answer = co_await make_answer(std::move(request), handling.lane);
+        Answer answer = co_await make_answer(std::move(request), handling.lane, spooled);
+        spooled.reset();
         co_return co_await write_answer(std::move(answer));
     }
 
-    asio::awaitable<Answer> make_answer(Request request, Lane lane) {
-        if (lane == Lane::at_once) co_return m_context.answer(std::move(request));
+    asio::awaitable<Answer> make_answer(Request request, Lane lane, const std::optional<SpooledBody>& spooled) {
+        if (lane == Lane::at_once && !spooled) co_return m_context.answer(std::move(request));
         asio::thread_pool& pool = lane == Lane::specs ? m_context.spec_pool : m_context.pool;
-        co_return co_await on_pool(pool, [&] { return m_context.answer(std::move(request)); });
+        co_return co_await on_pool(pool, [&] {
+            try {
+                if (spooled) request.body = spooled->text();
+            } catch (const std::system_error& error) {
+                return Answer(no_room_for_body(request, error));
+            }
+            return m_context.answer(std::move(request));
+        });
+    }
+
+    static Response no_room_for_body(const Request& request, const std::system_error& error) {
+        spdlog::error("{} {}: {}", request.method, request.target, error.what());
+        return problem(507, "There is no room for the body.");
+    }
+
+    static Response too_many_bodies() {
+        Response response = problem(503, "Too many long bodies are on their way; try again later.");
+        response.headers.add("Retry-After", "10");
+        return response;
     }
 
     static Response too_many_connections() {
@@ -168,7 +200,7 @@ class TcpSession : public Session {
         co_return !error;
     }
 
-    asio::awaitable<beast::error_code> read_header(Parser& parser) {
+    asio::awaitable<beast::error_code> read_header(HeadParser& parser) {
         parser.header_limit(m_limits.header_bytes);
         // The declared length is compared with the limit after the header is read, so that the answer can be a clean
         // 413.
@@ -179,9 +211,12 @@ class TcpSession : public Session {
         co_return error;
     }
 
-    asio::awaitable<beast::error_code> read_body(Parser& parser, std::uint64_t limit) {
+    /// Into `body`, or into a file if it is long. Throws std::system_error.
+    asio::awaitable<beast::error_code> read_body(HeadParser& parser, std::uint64_t limit, std::string& body,
+                                                 std::optional<SpooledBody>& spooled) {
         const auto length = parser.content_length();
         if (length && *length > limit) co_return bhttp::error::body_limit;
+        if (parser.is_done()) co_return beast::error_code();
         parser.body_limit(limit);
         if (beast::iequals(parser.get()[bhttp::field::expect], "100-continue")) {
             const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -190,8 +225,28 @@ class TcpSession : public Session {
         }
         m_dispensable_from = SteadyClock::now() + slow_body;
         m_stream.expires_after(m_limits.body_timeout);
-        auto [error, count] = co_await bhttp::async_read(m_stream, m_buffer, parser, token);
+        if (length.value_or(parser.chunked() ? limit : 0) > longest_body_in_memory) {
+            spooled.emplace(m_context.spool, m_context.spooled_bytes);
+            co_return co_await read_long_body(parser, *spooled);
+        }
+        bhttp::request_parser<bhttp::string_body> whole(std::move(parser));
+        auto [error, count] = co_await bhttp::async_read(m_stream, m_buffer, whole, token);
+        body = std::move(whole.get().body());
         co_return error;
+    }
+
+    /// Ends early, without an error, if all long bodies together become too many.
+    asio::awaitable<beast::error_code> read_long_body(HeadParser& parser, SpooledBody& spooled) {
+        bhttp::request_parser<bhttp::buffer_body> pieces(std::move(parser));
+        std::string piece(piece_bytes, '\0');
+        while (!pieces.is_done() && m_context.spooled_bytes <= m_limits.spool_bytes) {
+            pieces.get().body().data = piece.data();
+            pieces.get().body().size = piece.size();
+            auto [error, count] = co_await bhttp::async_read(m_stream, m_buffer, pieces, token);
+            if (error && error != bhttp::error::need_buffer) co_return error;
+            spooled.append(std::string_view(piece).substr(0, piece.size() - pieces.get().body().size));
+        }
+        co_return beast::error_code();
     }
 
     /// Sends the problem and ends the connection so that the sender can read it: closing with unread data would reset

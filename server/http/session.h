@@ -2,6 +2,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -26,6 +27,8 @@ struct SessionContext {
     boost::asio::thread_pool& spec_pool;
     Changes& changes;
     LastingAnswers lasting;
+    std::filesystem::path spool;      ///< folder for long bodies on their way
+    std::uint64_t spooled_bytes = 0;  ///< of all that are on their way
     std::set<Session*> sessions;
     bool stopping = false;
     std::function<void()> on_end;  ///< called when a session has ended

@@ -62,6 +62,20 @@ test("slow bodies", () =>
     "slow bodies",
     "POST /api/v1/specs/validate HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 99\r\n\r\n{",
   ));
+test("uploads that do not end take no memory", async () => {
+  await service.raw("GET", "/healthz");
+  const before_mib = memory_mib(),
+    head =
+      "POST /api/v1/assets HTTP/1.1\r\nHost: localhost\r\nContent-Type: image/png\r\nContent-Length: 60000000\r\n\r\n",
+    part = Buffer.alloc(10_000_000);
+  const sockets = Array.from({ length: 20 }, () => open(head));
+  await Promise.all(sockets.map((socket) => new Promise((resolve) => socket.write(part, resolve))));
+  const more_mib = memory_mib() - before_mib;
+  console.log(`20 uploads of 10 of 60 MB: ${more_mib.toFixed(0)} MiB more`);
+  for (const socket of sockets) socket.destroy();
+  await probe();
+  assert.ok(more_mib < 60, `${more_mib} MiB`);
+});
 /** Each is owed up to 40 large answers; the service makes one at a time. */
 const deaf = () =>
   crowd("clients that do not read", "GET /api/v1/openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n".repeat(40), {

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <set>
@@ -44,9 +45,16 @@ class Client {
 
     void send(const std::string& method, const std::string& target, const std::string& body = "",
               const std::string& more = "") const {
-        const std::string text = method + " " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" +
-                                 more + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
-        ASSERT_EQ(write(m_socket, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+        send_text(method + " " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + more +
+                  "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+    }
+
+    void send_text(const std::string& text) const {
+        for (std::size_t sent = 0; sent < text.size();) {
+            const ssize_t count = write(m_socket, text.data() + sent, text.size() - sent);
+            ASSERT_GT(count, 0);
+            sent += static_cast<std::size_t>(count);
+        }
     }
 
     /// Reads until `enough` has arrived, or the server ends the connection. Returns everything read so far.
@@ -112,7 +120,7 @@ class ServerTest : public testing::Test {
         const json image = {{"sha256", sha256}, {"url", "u"}, {"media_type", "image/png"}};
         const json spec = {{"methods", {"b2f"}}, {"image", {{"width", 4}, {"height", 4}}}};
         const NewReport report{.id = m_ids.next(), .spec = spec.dump(), .spec_sha256 = "of the spec"};
-        m_store.queue().submit(report, 100);
+        m_store.queue().submit(report, {100});
         const FinishedReport finished{
             .report = {{"id", report.id}, {"spec", spec}, {"runs", json::array({empty_run()})}},
             .blobs = {{sha256, "image/png"}},
@@ -143,7 +151,7 @@ class ServerTest : public testing::Test {
     Service m_service{.store = m_store, .ids = m_ids, .clock = {}, .list_devices = {}};
     const Router m_router = make_router(m_service);
     const Application m_application{make_guard(true, {}), m_router};
-    const Limits m_limits{.threads = 1, .event_heartbeat = 50ms};
+    const Limits m_limits{.threads = 1, .spool_bytes = 8 << 20, .event_heartbeat = 50ms};
     Server m_server{{.port = 0},
                     m_limits,
                     {.answer = [this](Request request) { return m_application.answer(std::move(request)); },
@@ -194,9 +202,56 @@ TEST_F(ServerTest, APictureIsSentCompletely) {
     EXPECT_THAT(ask("HEAD", path), testing::AllOf(HasSubstr("Content-Length: 9\r\n"), testing::EndsWith("\r\n\r\n")));
 }
 
+/// No two pieces of it are equal.
+std::string long_text(std::size_t bytes) {
+    std::string text;
+    while (text.size() < bytes) text += std::to_string(text.size()) + ",";
+    text.resize(bytes);
+    return text;
+}
+
+TEST_F(ServerTest, ALongBodyArrivesWhole) {
+    const std::string type = "Content-Type: image/png\r\n", body = long_text((3 << 20) + 7);
+    EXPECT_THAT(ask("POST", "/api/v1/assets", body, type),
+                testing::AllOf(HasSubstr(" 201 "), HasSubstr(sha256_hex(body))));
+    EXPECT_THAT(ask("GET", "/api/v1/assets/" + sha256_hex(body)), testing::EndsWith("\r\n\r\n" + body));
+    const std::string other = long_text((1 << 20) + 1);
+    std::string chunks;
+    for (std::size_t at = 0; at < other.size(); at += 100'000) {
+        const std::string chunk = other.substr(at, 100'000);
+        std::array<char, 20> length;
+        std::snprintf(length.data(), length.size(), "%zx\r\n", chunk.size());
+        chunks += length.data() + chunk + "\r\n";
+    }
+    Client client(m_server.endpoint());
+    client.send_text("POST /api/v1/assets HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + type +
+                     "Transfer-Encoding: chunked\r\n\r\n" + chunks + "0\r\n\r\n");
+    EXPECT_THAT(client.read_all(), testing::AllOf(HasSubstr(" 201 "), HasSubstr(sha256_hex(other))));
+}
+
+TEST_F(ServerTest, LongBodiesOnTheirWayAreLimitedTogether) {
+    const std::string head =
+        "POST /api/v1/assets HTTP/1.1\r\nHost: localhost\r\nContent-Type: image/png\r\n"
+        "Content-Length: 5000000\r\n\r\n";
+    Client second(m_server.endpoint());
+    {
+        Client first(m_server.endpoint());
+        first.send_text(head + long_text(4'900'000));
+        second.send_text(head + long_text(4'900'000));
+        EXPECT_THAT(second.read_all(), testing::AllOf(HasSubstr(" 503 "), HasSubstr("Retry-After: 10")));
+        EXPECT_THAT(ask("GET", "/healthz"), HasSubstr("200 OK"));
+    }
+    // The first gave up, which makes room.
+    const std::string body = long_text(4'900'001);
+    std::string answer;
+    for (int i = 0; i < 100 && answer.find(" 201 ") == std::string::npos; ++i)
+        answer = ask("POST", "/api/v1/assets", body, "Content-Type: image/png\r\n");
+    EXPECT_THAT(answer, HasSubstr(sha256_hex(body)));
+}
+
 TEST_F(ServerTest, ABlockedStoreDelaysOnlyRequestsThatNeedIt) {
     const NewReport report{.id = m_ids.next(), .spec = "{}", .spec_sha256 = ""};
-    m_store.queue().submit(report, 100);
+    m_store.queue().submit(report, {100});
     Client stream(m_server.endpoint()), reader(m_server.endpoint());
     stream.send("GET", "/api/v1/reports/" + report.id + "/events");
     EXPECT_THAT(stream.read_until("event: progress"), HasSubstr("200 OK"));

@@ -47,7 +47,7 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
     const ServiceConfig config = read_service_config(json::parse(R"({
         "listen": "[::1]:1", "data": "d", "workers": 2, "log_level": "error",
         "http": {"max_connections": 3, "max_streams_per_client": 4, "threads": 10, "header_bytes": 1025, "body_bytes": 1026,
-                 "drain_bytes": 7, "idle_timeout_s": 8, "header_timeout_s": 9, "body_timeout_s": 10.5,
+                 "drain_bytes": 7, "spool_bytes": 2000000, "idle_timeout_s": 8, "header_timeout_s": 9, "body_timeout_s": 10.5,
                  "write_timeout_s": 11, "event_heartbeat_s": 12, "stop_timeout_s": 13, "max_wait_s": 14,
                  "ready_within_s": 15, "devices_cache_s": 16},
         "jobs": {"max_queued": 17, "lease_s": 19, "heartbeat_s": 18, "max_attempts": 5},
@@ -65,6 +65,7 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
     EXPECT_EQ(http.header_bytes, 1025u);
     EXPECT_EQ(http.body_bytes, 1026u);
     EXPECT_EQ(http.drain_bytes, 7u);
+    EXPECT_EQ(http.spool_bytes, 2'000'000u);
     EXPECT_EQ(http.idle_timeout, 8s);
     EXPECT_EQ(http.header_timeout, 9s);
     EXPECT_EQ(http.body_timeout, 10'500ms);
