@@ -251,6 +251,8 @@ Section worker_settings() {
              seconds("time_limit_s", "time for one job", week_s, of_worker(&WorkerOptions::time_limit)),
              seconds("pixel_time_limit_s", "time for explaining one pixel of a report, or for comparing two reports",
                      hour_s, in(&ServiceConfig::question, &ChildLimits::time)),
+             bytes("output_limit_bytes", "size of all files that a renderer writes; 0 for no limit", 0, tebibyte,
+                   of_worker(&WorkerOptions::output_limit_bytes)),
              seconds("poll_s",
                      "time between two checks of the queue; the workers of a PostgreSQL store are told of new jobs", 60,
                      of_worker(&WorkerOptions::poll_interval)),

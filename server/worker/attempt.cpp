@@ -21,9 +21,11 @@ using namespace std::chrono_literals;
 
 namespace {
 
+constexpr const char *spec_name = "spec.json", *out_name = "out";
 // Each write of progress waits for the disk and so disturbs the timing.
 constexpr auto progress_interval = 250ms;
 constexpr auto question_interval = 200ms;
+constexpr auto look_interval = 500ms;
 constexpr auto commit_pause = 1s;
 constexpr int most_commits = 30;
 
@@ -40,27 +42,37 @@ Attempt::Attempt(Store& store, const WorkerOptions& options, const ClockMs& cloc
 
 void Attempt::run() {
     const ScratchFolder scratch(m_options.scratch, m_lease.id, m_lease.attempt);
-    const fs::path spec = scratch.path() / "spec.json", out = scratch.path() / "out";
-    write_file(spec, m_lease.spec);
+    write_file(scratch.path() / spec_name, m_lease.spec);
     m_store.bring_here(m_lease.spec);
     spdlog::info("job {} starts, attempt {}", m_lease.id, m_lease.attempt);
-    conclude(run_child(child_run(spec, out)), out);
+    conclude(run_child(child_run(scratch.path())), scratch.path() / out_name);
 }
 
-ChildRun Attempt::child_run(const fs::path& spec, const fs::path& out) {
+fs::path Attempt::shaders_in(const fs::path& scratch) const {
+    if (m_options.shaders.empty() || !has_foreign_input(nlohmann::json::parse(m_lease.spec))) return m_options.shaders;
+    const fs::path copy = scratch / "shaders";
+    copy_shaders(m_options.shaders, copy);
+    return copy;
+}
+
+ChildRun Attempt::child_run(const fs::path& scratch) {
     ChildRun run;
+    const fs::path spec = scratch / spec_name, out = scratch / out_name;
     run.options.program = m_options.program;
     run.options.fork_server = m_options.fork_server;
     run.options.arguments = {"render", spec.string(), "--out", out.string(), "--data", m_options.data};
-    if (!m_options.shaders.empty() && !has_foreign_input(nlohmann::json::parse(m_lease.spec)))
-        run.options.arguments.insert(run.options.arguments.end(), {"--shaders", m_options.shaders.string()});
+    if (const fs::path shaders = shaders_in(scratch); !shaders.empty())
+        run.options.arguments.insert(run.options.arguments.end(), {"--shaders", shaders.string()});
     add_device(run.options.arguments, m_options);
     confine(run.options, m_options.sandbox);
     run.options.memory_limit_bytes = m_options.memory_limit_bytes;
     run.time_limit = m_options.time_limit;
     run.wake_descriptor = m_stop.descriptor();
     run.on_line = [this](const std::string& line) { read_line(line); };
-    run.keep_going = [this] { return !m_stop.requested() && keep_lease(); };
+    run.keep_going = [this, out] {
+        m_wrote_too_much = writes_too_much(out);
+        return !m_stop.requested() && !m_wrote_too_much && keep_lease();
+    };
     return run;
 }
 
@@ -72,6 +84,19 @@ void Attempt::read_line(const std::string& line) {
         m_progress = *progress;
         m_unsaved_progress = true;
     }
+}
+
+bool Attempt::writes_too_much(const fs::path& out) {
+    const SteadyTime now = std::chrono::steady_clock::now();
+    if (m_options.output_limit_bytes == 0 || now - m_last_look < look_interval) return false;
+    m_last_look = now;
+    std::uint64_t all_bytes = 0;
+    std::error_code none;
+    for (const fs::directory_entry& file : fs::recursive_directory_iterator(out, none)) {
+        std::error_code gone;
+        if (const auto bytes = file.file_size(gone); !gone) all_bytes += bytes;
+    }
+    return all_bytes > m_options.output_limit_bytes;
 }
 
 bool Attempt::keep_lease() {
@@ -115,6 +140,12 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
         const auto limit_s = std::chrono::duration_cast<std::chrono::seconds>(m_options.time_limit).count();
         spdlog::warn("job {} was stopped after {} s", m_lease.id, limit_s);
         m_queue.fail(m_lease, {"Rendering took too long", fmt::format("It was stopped after {} s.", limit_s)}, false);
+    } else if (result.stopped && m_wrote_too_much) {
+        spdlog::warn("job {} was stopped since it wrote more than {} bytes", m_lease.id, m_options.output_limit_bytes);
+        m_queue.fail(
+            m_lease,
+            {"Rendering wrote too much", fmt::format("It wrote more than {} bytes.", m_options.output_limit_bytes)},
+            false);
     } else if (result.stopped && m_state == LeaseState::cancel_requested) {
         spdlog::info("job {} is cancelled", m_lease.id);
         m_queue.cancel(m_lease);

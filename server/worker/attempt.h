@@ -18,9 +18,13 @@ class Attempt {
   private:
     using SteadyTime = std::chrono::steady_clock::time_point;
 
-    ChildRun child_run(const std::filesystem::path& spec, const std::filesystem::path& out);
+    ChildRun child_run(const std::filesystem::path& scratch);
+    /// Where its driver finds and keeps compiled shaders: files and programs of others cannot leave anything in ours,
+    /// so what reads them gets a copy. Empty for none.
+    std::filesystem::path shaders_in(const std::filesystem::path& scratch) const;
     void read_line(const std::string& line);
     bool keep_lease();
+    bool writes_too_much(const std::filesystem::path& out);
     void ask();
     bool commit(const FinishedReport& finished);
     void beat(SteadyTime now);
@@ -38,12 +42,14 @@ class Attempt {
     StopSignal& m_stop;
     ChildProgress m_progress;
     std::optional<ChildError> m_error;  ///< what the child said went wrong
+    bool m_wrote_too_much = false;
     bool m_unsaved_progress = false;
     bool m_rendered = false;  ///< whether progress was made since the last heartbeat
     LeaseState m_state = LeaseState::held;
     SteadyTime m_last_heartbeat{};
     SteadyTime m_lease_kept = std::chrono::steady_clock::now();  ///< when the store last heard from us
     SteadyTime m_last_question{};
+    SteadyTime m_last_look{};  ///< at the files of the renderer
 };
 
 }  // namespace sheer

@@ -30,6 +30,22 @@ ScratchFolder::~ScratchFolder() {
     fs::remove_all(m_path, left_to_the_next_sweep);
 }
 
+void copy_shaders(const fs::path& from, const fs::path& to) {
+    constexpr std::uint64_t most_bytes = 64 << 20;
+    std::uint64_t all_bytes = 0;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from, none)) {
+        std::error_code left_out;
+        const fs::path copy = to / entry.path().lexically_relative(from);
+        if (entry.is_directory(left_out)) fs::create_directories(copy, left_out);
+        if (!entry.is_regular_file(left_out)) continue;
+        all_bytes += entry.file_size(left_out);
+        if (left_out || all_bytes > most_bytes) return;
+        fs::create_directories(copy.parent_path(), left_out);
+        fs::copy_file(entry.path(), copy, left_out);
+    }
+}
+
 void sweep_scratch(const fs::path& folder, ReportArchive& reports) {
     std::error_code none;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {

@@ -22,6 +22,10 @@ class ScratchFolder {
     std::filesystem::path m_path;
 };
 
+/// Copies the files of a driver's folder of compiled shaders, as far as they fit in 64 MiB. What cannot be copied,
+/// since another renderer has just removed it, is left out.
+void copy_shaders(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Removes the leftovers of killed workers: the folders of jobs that are not running.
 void sweep_scratch(const std::filesystem::path& folder, ReportArchive& reports);
 

@@ -23,7 +23,8 @@ struct WorkerOptions {
     std::string label = "local";    ///< see JobQueue::lease()
     std::string renders_on;         ///< the renderer's --device; empty: it chooses
     std::string program = rendering_program();
-    std::uint64_t memory_limit_bytes = std::uint64_t{8} << 30;  ///< of the rendering child; 0: none
+    std::uint64_t memory_limit_bytes = std::uint64_t{8} << 30;   ///< of the rendering child; 0: none
+    std::uint64_t output_limit_bytes = std::uint64_t{16} << 30;  ///< of all files that it writes; 0: none
     std::chrono::milliseconds time_limit{1'800'000};
     std::chrono::milliseconds poll_interval{150};
     std::chrono::milliseconds probe_interval{30'000};

@@ -52,7 +52,7 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
                  "ready_within_s": 15, "devices_cache_s": 16},
         "jobs": {"max_queued": 17, "lease_s": 19, "heartbeat_s": 18, "max_attempts": 5},
         "assets": {"max_bytes": 1027, "check_memory_bytes": 21, "check_time_s": 22},
-        "worker": {"memory_limit_bytes": 23, "time_limit_s": 24, "pixel_time_limit_s": 25, "poll_s": 0.25,
+        "worker": {"memory_limit_bytes": 23, "output_limit_bytes": 22, "time_limit_s": 24, "pixel_time_limit_s": 25, "poll_s": 0.25,
                    "probe_interval_s": 27}})"));
     const http::Limits& http = config.http;
     EXPECT_EQ(config.listen, "[::1]:1");
@@ -87,6 +87,7 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
     EXPECT_EQ(config.upload_check.time, 22s);
     EXPECT_EQ(config.worker.memory_limit_bytes, 23u);
     EXPECT_EQ(config.question.memory_bytes, 23u);
+    EXPECT_EQ(config.worker.output_limit_bytes, 22u);
     EXPECT_EQ(config.worker.time_limit, 24s);
     EXPECT_EQ(config.question.time, 25s);
     EXPECT_EQ(config.worker.poll_interval, 250ms);

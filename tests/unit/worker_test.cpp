@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <set>
 #include <thread>
 
@@ -78,6 +79,24 @@ TEST_F(WorkerTest, TheRendererGetsTheSpec) {
     EXPECT_EQ(status(id), Status::done);
 }
 
+/// The seventh and eighth words say where compiled shaders are; one that is kept leaves a file there.
+TEST_F(WorkerTest, WhatReadsFilesOfOthersGetsACopyOfTheShaders) {
+    m_options.shaders = m_folder.path() / "shaders";
+    std::filesystem::create_directories(m_options.shaders / "ab");
+    std::ofstream(m_options.shaders / "ab" / "known") << "compiled";
+    const auto rendered = [&](const json& more, const std::string& name) {
+        const std::string id = submit("shaders", more);
+        run_with(R"([ "$7" = --shaders ] && grep -q compiled "$8/ab/known" || exit 9; echo new > "$8/)" + name +
+                 "\"; " + leave_report("p", sha256_hex("p")));
+        EXPECT_EQ(status(id), Status::done) << name;
+        return std::filesystem::exists(m_options.shaders / name);
+    };
+    EXPECT_TRUE(rendered(json::object(), "ours"));
+    EXPECT_FALSE(rendered({{"scene", {{"type", "gltf"}, {"model", std::string(64, 'a')}}}}, "upload"));
+    EXPECT_FALSE(rendered({{"scene", {{"type", "quads"}, {"shading", {{"glsl", "return tint;"}}}}}}, "program"));
+    EXPECT_TRUE(std::filesystem::exists(m_options.shaders / "ab" / "known"));
+}
+
 TEST_F(WorkerTest, ARendererThatDiesIsTriedOnceMore) {
     const std::string id = submit();
     run_with("kill -SEGV $$");
@@ -149,6 +168,18 @@ TEST_F(WorkerTest, ARendererThatTakesTooLongIsStopped) {
     m_options.time_limit = 200ms;
     run_with("sleep 60");
     EXPECT_EQ(error(id).title, "Rendering took too long");
+}
+
+TEST_F(WorkerTest, ARendererThatWritesTooMuchIsStopped) {
+    const std::string id = submit();
+    m_options.output_limit_bytes = 1'000'000;
+    run_with(
+        R"sh(mkdir -p "$4/a/b"; n=0; while :; do head -c 300000 /dev/zero >> "$4/a/b/$((n = n + 1))"; sleep 0.05; done)sh");
+    EXPECT_EQ(error(id).title, "Rendering wrote too much");
+    EXPECT_EQ(error(id).detail, "It wrote more than 1000000 bytes.");
+    const std::string less = submit();
+    run_with(leave_report("p", sha256_hex("p")));
+    EXPECT_EQ(status(less), Status::done);
 }
 
 TEST_F(WorkerTest, AnIncompleteReportIsNotKept) {
