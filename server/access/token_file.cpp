@@ -44,14 +44,20 @@ Token token_of(const json& object) {
     Token token{object.at("name"), scope.value_or(Scope::none), object.at("sha256"), object.at("created_ms")};
     if (!scope || !is_token_name(token.name) || !is_sha256(token.sha256))
         throw TokenError("a token has another name, scope or hash than a token can have");
+    for (const auto& [name, what, limit] : quota_limits)
+        if (const auto quota = object.find("quota"); quota != object.end() && quota->contains(name))
+            token.quota.*limit = quota->at(name).get<std::int64_t>();
     return token;
 }
 
 json json_of(const Token& token) {
-    return {{"name", token.name},
-            {"scope", scope_text(token.scope)},
-            {"sha256", token.sha256},
-            {"created_ms", token.created_ms}};
+    json object = {{"name", token.name},
+                   {"scope", scope_text(token.scope)},
+                   {"sha256", token.sha256},
+                   {"created_ms", token.created_ms}};
+    for (const auto& [name, what, limit] : quota_limits)
+        if (token.quota.*limit) object["quota"][name] = *(token.quota.*limit);
+    return object;
 }
 
 /// If root changes the tokens of a service that runs as another user, that user must still be able to read them.
@@ -77,13 +83,13 @@ std::vector<Token> TokenFile::read() const {
     }
 }
 
-std::string TokenFile::create(const std::string& name, Scope scope, std::int64_t now_ms) {
+std::string TokenFile::create(const std::string& name, Scope scope, const Quota& quota, std::int64_t now_ms) {
     if (!is_token_name(name)) throw TokenError("a token's name has 1 to 100 letters, digits and -_.@");
     const std::string secret = new_secret();
     change([&](std::vector<Token>& tokens) {
         if (std::ranges::count(tokens, name, &Token::name) > 0)
             throw TokenError(fmt::format("there is a token \"{}\" already; revoke it first", name));
-        tokens.push_back({name, scope, sha256_hex(secret), now_ms});
+        tokens.push_back({name, scope, sha256_hex(secret), now_ms, quota});
     });
     return secret;
 }

@@ -25,7 +25,7 @@ class TokenFile {
     std::vector<Token> read() const;
     /// Adds a token and returns its secret. Throws TokenError if the name is taken or has other characters than
     /// is_token_name() allows.
-    std::string create(const std::string& name, Scope scope, std::int64_t now_ms);
+    std::string create(const std::string& name, Scope scope, const Quota& quota, std::int64_t now_ms);
     /// Throws TokenError if there is no such token.
     void revoke(const std::string& name);
 

@@ -32,6 +32,9 @@ void insert_report(SQLite::Database& database, const NewReport& report, std::int
         SQLite::bind(tag, report.id, name, value.get<std::string>());
         tag.exec();
     }
+    SQLite::Statement job(database, "INSERT INTO jobs VALUES (?, ?, ?)");
+    SQLite::bind(job, report.id, report.sender ? report.sender->token : std::string(), report.cost_mpx);
+    job.exec();
     add_to_index(database, {.id = report.id, .facets = facets, .spec_sha256 = report.spec_sha256});
 }
 

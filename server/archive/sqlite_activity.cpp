@@ -18,6 +18,19 @@ void add_to_counter(SQLite::Database& database, const std::string& name, double 
     add.exec();
 }
 
+void add_use(SQLite::Database& database, std::int64_t now_ms, const std::string& token, double seconds,
+             std::int64_t upload_bytes) {
+    const std::int64_t hour = now_ms / use_hour_ms;
+    SQLite::Statement old(database, "DELETE FROM token_use WHERE hour <= ?");
+    old.bind(1, hour - use_hours);
+    old.exec();
+    SQLite::Statement add(database,
+                          "INSERT INTO token_use VALUES (?, ?, ?, ?) ON CONFLICT (token, hour) DO UPDATE SET seconds = "
+                          "seconds + excluded.seconds, upload_bytes = upload_bytes + excluded.upload_bytes");
+    SQLite::bind(add, token, hour, seconds, upload_bytes);
+    add.exec();
+}
+
 }  // namespace
 
 void count_lost_lease(SQLite::Database& database) {
@@ -31,9 +44,38 @@ void count_stage_time(SQLite::Database& database, const SqliteArchive& archive, 
     const std::string kind = kind_of_stage(row.getColumn(0).getString());
     const std::int64_t last_ms = row.getColumn(1).getInt64() - archive.rules().lease_ms;
     row.reset();
-    const auto elapsed_ms = static_cast<double>(std::max<std::int64_t>(archive.now_ms() - last_ms, 0));
-    add_to_counter(database, std::string(stage_kind) + part_separator + (kind.empty() ? "starting" : kind),
-                   elapsed_ms / 1000);
+    const double seconds = static_cast<double>(std::max<std::int64_t>(archive.now_ms() - last_ms, 0)) / 1000;
+    add_to_counter(database, std::string(stage_kind) + part_separator + (kind.empty() ? "starting" : kind), seconds);
+    SQLite::Statement sender(database, "SELECT token FROM jobs WHERE report_id = ? AND token <> ''");
+    sender.bind(1, id);
+    if (!sender.executeStep()) return;
+    const std::string token = sender.getColumn(0).getString();
+    sender.reset();
+    add_use(database, archive.now_ms(), token, seconds, 0);
+}
+
+TokenUse use_of(SQLite::Database& database, std::int64_t now_ms, const std::string& token) {
+    TokenUse use;
+    SQLite::Statement jobs(database, "SELECT count(*) FROM jobs WHERE token = ?");
+    jobs.bind(1, token);
+    if (jobs.executeStep()) use.jobs = jobs.getColumn(0).getInt64();
+    SQLite::Statement day(database,
+                          "SELECT total(seconds), coalesce(sum(upload_bytes), 0), min(hour) FROM token_use WHERE "
+                          "token = ? AND hour > ?");
+    SQLite::bind(day, token, now_ms / use_hour_ms - use_hours);
+    if (!day.executeStep() || day.getColumn(2).isNull()) return use;
+    use.seconds = day.getColumn(0).getDouble();
+    use.upload_bytes = day.getColumn(1).getInt64();
+    use.less_at_ms = (day.getColumn(2).getInt64() + use_hours) * use_hour_ms;
+    return use;
+}
+
+TokenUse SqliteUsage::of(const std::string& token) {
+    return m_archive.read([&](SQLite::Database& database) { return use_of(database, m_archive.now_ms(), token); });
+}
+
+void SqliteUsage::add_upload(const std::string& token, std::int64_t bytes) {
+    m_archive.write([&](SQLite::Database& database) { add_use(database, m_archive.now_ms(), token, 0, bytes); });
 }
 
 ActivityCounts SqliteActivity::counts() {

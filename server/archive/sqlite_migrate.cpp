@@ -46,7 +46,7 @@ void measure_blobs(SQLite::Database& database, const DataFolder& folder) {
     }
 }
 
-constexpr std::array<Migration, 11> migrations = {{{"schema.sql"},
+constexpr std::array<Migration, 12> migrations = {{{"schema.sql"},
                                                    {"assets.sql"},
                                                    {"retries.sql"},
                                                    {"baselines.sql"},
@@ -56,7 +56,8 @@ constexpr std::array<Migration, 11> migrations = {{{"schema.sql"},
                                                    {"trends.sql"},
                                                    {"metrics.sql"},
                                                    {"workers.sql"},
-                                                   {"facet_bits.sql", index_all}}};
+                                                   {"facet_bits.sql", index_all},
+                                                   {"quotas.sql"}}};
 
 std::string sql_file(const std::string& name) {
     for (const EmbeddedFile& file : embedded_server_files())

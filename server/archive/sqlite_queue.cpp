@@ -31,7 +31,7 @@ LeaseState read_state(SQLite::Database& database, const Lease& lease) {
 
 }  // namespace
 
-SubmitResult SqliteQueue::submit(const NewReport& report, std::size_t max_queued) {
+SubmitResult SqliteQueue::submit(const NewReport& report, const QueueLimits& limits) {
     using Outcome = SubmitResult::Outcome;
     m_archive.room().restore_reserve();
     return m_archive.write([&](SQLite::Database& database) -> SubmitResult {
@@ -43,8 +43,16 @@ SubmitResult SqliteQueue::submit(const NewReport& report, std::size_t max_queued
                 return {same ? Outcome::repeated : Outcome::key_reused, known.getColumn(0).getString()};
             }
         }
-        const auto queued = database.execAndGet("SELECT count(*) FROM reports WHERE status = 'queued'").getInt64();
-        if (static_cast<std::size_t>(queued) >= max_queued) return {Outcome::queue_full, ""};
+        SQLite::Statement queued(
+            database,
+            "SELECT count(*), total(cost_mpx) FROM reports JOIN jobs ON report_id = id WHERE status "
+            "= 'queued'");
+        queued.executeStep();
+        if (!limits.have_place(queued.getColumn(0).getInt64(), queued.getColumn(1).getDouble(), report.cost_mpx))
+            return {Outcome::queue_full, ""};
+        if (report.sender)
+            if (const auto no = refusal_of(*report.sender, use_of(database, m_archive.now_ms(), report.sender->token)))
+                return {*no, ""};
         if (const std::string lack = find_lack_of_room(database, m_archive); !lack.empty()) throw StoreFull(lack);
         insert_report(database, report, m_archive.now_ms());
         return {Outcome::created, report.id};
@@ -132,6 +140,7 @@ bool SqliteQueue::commit_rows(const Lease& lease, const FinishedReport& finished
         const LeaseState state = read_state(database, lease);
         if (state == LeaseState::cancel_requested) end_attempt(database, m_archive, lease.id, {}, Status::cancelled);
         if (state != LeaseState::held) return false;
+        count_stage_time(database, m_archive, lease.id);
         // Before the write lock was held, a deletion may have removed a file that another report shared with this one.
         for (const BlobName& blob : finished.blobs)
             if (!m_archive.blobs().find(blob.sha256)) put_blob(finished, blob, added);
@@ -149,6 +158,7 @@ void SqliteQueue::fail_by_signal(const Lease& lease, const JobError& error, int 
     m_archive.essential([&](SQLite::Database& database) {
         const LeaseState state = read_state(database, lease);
         if (state == LeaseState::lost) return;
+        count_stage_time(database, m_archive, lease.id);
         SQLite::Statement known(database, "SELECT 1 FROM reports WHERE spec_sha256 = ? AND died_of = ?");
         SQLite::bind(known, lease.spec_sha256, signal);
         const bool again = known.executeStep();
@@ -186,6 +196,7 @@ void SqliteQueue::fail(const Lease& lease, const JobError& error, bool retry) {
     m_archive.essential([&](SQLite::Database& database) {
         const LeaseState state = read_state(database, lease);
         if (state == LeaseState::lost) return;
+        count_stage_time(database, m_archive, lease.id);
         const bool cancelled = state == LeaseState::cancel_requested;
         Status status = cancelled ? Status::cancelled : Status::failed;
         if (retry) status = after_lost_attempt(lease.attempt, cancelled, m_archive.rules());
@@ -196,8 +207,9 @@ void SqliteQueue::fail(const Lease& lease, const JobError& error, bool retry) {
 
 void SqliteQueue::cancel(const Lease& lease) {
     m_archive.essential([&](SQLite::Database& database) {
-        if (read_state(database, lease) != LeaseState::lost)
-            end_attempt(database, m_archive, lease.id, {}, Status::cancelled);
+        if (read_state(database, lease) == LeaseState::lost) return;
+        count_stage_time(database, m_archive, lease.id);
+        end_attempt(database, m_archive, lease.id, {}, Status::cancelled);
     });
     m_archive.checkpoint();
 }

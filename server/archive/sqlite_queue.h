@@ -10,7 +10,7 @@ class SqliteQueue : public JobQueue {
   public:
     SqliteQueue(SqliteArchive& archive, SqliteBlobs& blobs) : m_archive(archive), m_blobs(blobs) {}
 
-    SubmitResult submit(const NewReport& report, std::size_t max_queued) override;
+    SubmitResult submit(const NewReport& report, const QueueLimits& limits) override;
     std::optional<Lease> lease(const std::string& owner, const std::string& label) override;
     LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) override;
     LeaseState state(const Lease& lease) override;

@@ -30,6 +30,7 @@ struct SqliteStore::Parts {
     SqliteTrends trends{archive};
     SqliteActivity activity{archive};
     SqliteWorkers workers{archive};
+    SqliteUsage usage{archive};
     SqliteCare care{archive, blobs, folder};
 };
 
@@ -70,6 +71,9 @@ Activity& SqliteStore::activity() {
 }
 Workers& SqliteStore::workers() {
     return m_parts->workers;
+}
+Usage& SqliteStore::usage() {
+    return m_parts->usage;
 }
 std::unique_ptr<ChangeWatch> SqliteStore::watch() {
     return std::make_unique<SqliteWatch>(m_parts->folder);

@@ -1,6 +1,7 @@
 // Who may use a service.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/clock.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct TokenArguments {
     std::string name, scope = "submit", data, config;
+    Quota quota;
     bool as_json = false;
 };
 
@@ -31,7 +33,7 @@ TokenFile file_of(const TokenArguments& options) {
 /// The secret alone goes to standard output, so that it can be kept in a file.
 void create_token(const TokenArguments& options) {
     TokenFile file = file_of(options);
-    const std::string secret = file.create(options.name, *scope_from(options.scope), system_now_ms());
+    const std::string secret = file.create(options.name, *scope_from(options.scope), options.quota, system_now_ms());
     fmt::print("{}\n", secret);
     fmt::print(stderr, "\"{}\" may {}. This is the only time that its token is shown; {} has its hash.\n", options.name,
                options.scope, file.path().string());
@@ -40,10 +42,19 @@ void create_token(const TokenArguments& options) {
 void list_tokens(const TokenArguments& options) {
     json all = json::array();
     for (const Token& token : file_of(options).read()) {
-        all.push_back(
-            {{"name", token.name}, {"scope", scope_text(token.scope)}, {"created_at", utc_text(token.created_ms)}});
-        if (!options.as_json)
-            fmt::print("{:<24} {:<8} {}\n", token.name, scope_text(token.scope), utc_text(token.created_ms));
+        std::string line =
+            fmt::format("{:<24} {:<8} {}", token.name, scope_text(token.scope), utc_text(token.created_ms));
+        json quota = json::object();
+        for (const auto& [name, what, limit] : quota_limits)
+            if (token.quota.*limit) {
+                quota[name] = *(token.quota.*limit);
+                line += fmt::format("  at most {} {}", *(token.quota.*limit), what);
+            }
+        all.push_back({{"name", token.name},
+                       {"scope", scope_text(token.scope)},
+                       {"created_at", utc_text(token.created_ms)},
+                       {"quota", quota}});
+        if (!options.as_json) fmt::print("{}\n", line);
     }
     if (options.as_json) fmt::print("{}", json_page({{"tokens", all}}));
 }
@@ -83,7 +94,13 @@ void add_token(CLI::App& app, int& exit_code) {
                      "read: look at everything; submit: also post and delete reports and files; admin: also "
                      "baselines and pins; submit if not given")
         ->check(CLI::IsMember({"read", "submit", "admin"}));
-    create->footer("Example: sheer token create ci --scope submit > ci.token");
+    for (const auto& [name, what, limit] : quota_limits) {
+        std::string option = fmt::format("--max-{}", name);
+        std::ranges::replace(option, '_', '-');
+        create->add_option(option, created->quota.*limit, fmt::format("Greatest number of {}", what))
+            ->check(CLI::NonNegativeNumber);
+    }
+    create->footer("Example: sheer token create ci --scope submit --max-jobs 20 > ci.token");
     const auto [listing, listed] = add("list", "Names and scopes", list_tokens);
     listing->add_flag("--json", listed->as_json, "Print JSON");
     listing->footer("Example: sheer token list --data sheer-data");

@@ -228,13 +228,26 @@ const Description<answer::Pin>& description_of() {
 }
 
 template <>
+const Description<answer::QuotaLine>& description_of() {
+    using answer::QuotaLine;
+    static const auto description =
+        Description<QuotaLine>("QuotaLine", "what the holder of a token may take up")
+            .member(&QuotaLine::name, "name", "jobs, seconds or upload_bytes")
+            .member(&QuotaLine::what, "what", "what is counted; a day is this hour and the 23 before it")
+            .member(&QuotaLine::limit, "limit", "the greatest number")
+            .member(&QuotaLine::used, "used", "the number now");
+    return description;
+}
+
+template <>
 const Description<answer::Session>& description_of() {
     using answer::Session;
     static const auto description =
         Description<Session>("Session", "who asks")
             .member(&Session::required, "required", "whether the service asks for a token")
             .member(&Session::name, "name", "of the token that this request brings; null for none")
-            .member(&Session::scope, "scope", "what it allows: read, submit or admin; null for nothing");
+            .member(&Session::scope, "scope", "what it allows: read, submit or admin; null for nothing")
+            .member(&Session::quotas, "quotas", "its limits, if it has some");
     return description;
 }
 

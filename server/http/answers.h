@@ -112,9 +112,16 @@ struct Pin {
     std::string report, url, pinned_at, by, reason;
 };
 
+struct QuotaLine {
+    std::string name, what;
+    std::int64_t limit = 0;
+    double used = 0;
+};
+
 struct Session {
     bool required = false;
     std::optional<std::string> name, scope;
+    std::vector<QuotaLine> quotas;
 };
 
 struct TrendLevel {
@@ -195,6 +202,8 @@ template <>
 const Description<http::answer::EarlyPictures>& description_of();
 template <>
 const Description<http::answer::Pin>& description_of();
+template <>
+const Description<http::answer::QuotaLine>& description_of();
 template <>
 const Description<http::answer::Session>& description_of();
 template <>

@@ -9,6 +9,7 @@
 #include "server/http/answers.h"
 #include "server/http/paths.h"
 #include "server/http/problem.h"
+#include "server/http/quota.h"
 #include "server/http/service.h"
 #include "server/http/slot.h"
 #include "server/http/text.h"
@@ -63,11 +64,14 @@ Answer post_asset(Service& service, std::atomic<int>& checks, const Request& req
         if (known->media_type == media_type) service.store.assets().add(*known, request.body);
         return known_asset(*known, media_type);
     }
+    const auto token = service.access.token_of(request);
+    if (token) require_upload_quota(service, *token, asset.size_bytes);
     UploadVerdict verdict;
     {
         const Slot slot(checks, service.limits.max_checks, "Other uploads are being read; try again later.");
         verdict = service.check_upload(request.body, media_type);
     }
+    if (token && token->quota.upload_bytes) service.store.usage().add_upload(token->name, asset.size_bytes);
     if (!verdict.refusal.empty())
         throw Problem(422, fmt::format("The file is not accepted as {}: {}{}", media_type, verdict.refusal,
                                        verdict.refusal.ends_with('.') ? "" : "."));
@@ -130,29 +134,30 @@ Route post_route(Service& service) {
     std::vector<std::string> media_types;
     for (const AssetKind& kind : asset_kinds()) media_types.push_back(kind.media_type);
     auto checks = std::make_shared<std::atomic<int>>(0);
-    return {.method = "POST",
-            .pattern = assets_path,
-            .id = "createAsset",
-            .summary = "Upload a file that specs can refer to by its SHA-256",
-            .description =
-                "The body is the file, and Content-Type says how it is read. It is decoded once, in a process that may "
-                "die, before it is kept.",
-            .query = {Param::text("name", "a name for the list", "", max_name_bytes)},
-            .replies = {{201, "It is stored; Location is its address", "application/json", "Asset", {"Location"}},
-                        {200, "It had already been uploaded", "application/json", "Asset", {"Location"}},
-                        {409, "The same bytes have already been uploaded with another type", "application/problem+json",
-                         "Problem"},
-                        {422, "The file does not match its type; `detail` has the reason", "application/problem+json",
-                         "Problem"},
-                        {507, "There is no room for it", "application/problem+json", "Problem"},
-                        {429,
-                         "Other uploads are being read; Retry-After says when to try again",
-                         "application/problem+json",
-                         "Problem",
-                         {"Retry-After"}}},
-            .handle = [&service, checks](const Request& request) { return post_asset(service, *checks, request); },
-            .body_types = std::move(media_types),
-            .body_bytes = service.limits.max_asset_bytes};
+    return {
+        .method = "POST",
+        .pattern = assets_path,
+        .id = "createAsset",
+        .summary = "Upload a file that specs can refer to by its SHA-256",
+        .description =
+            "The body is the file, and Content-Type says how it is read. It is decoded once, in a process that may "
+            "die, before it is kept.",
+        .query = {Param::text("name", "a name for the list", "", max_name_bytes)},
+        .replies =
+            {{201, "It is stored; Location is its address", "application/json", "Asset", {"Location"}},
+             {200, "It had already been uploaded", "application/json", "Asset", {"Location"}},
+             {409, "The same bytes have already been uploaded with another type", "application/problem+json",
+              "Problem"},
+             {422, "The file does not match its type; `detail` has the reason", "application/problem+json", "Problem"},
+             {507, "There is no room for it", "application/problem+json", "Problem"},
+             {429,
+              "Other uploads are being read, or the token's quota is used up; Retry-After says when to try again",
+              "application/problem+json",
+              "Problem",
+              {"Retry-After"}}},
+        .handle = [&service, checks](const Request& request) { return post_asset(service, *checks, request); },
+        .body_types = std::move(media_types),
+        .body_bytes = service.limits.max_asset_bytes};
 }
 
 Route one_route(std::string method, std::string id, std::string summary, std::vector<Reply> replies, Handler handle) {

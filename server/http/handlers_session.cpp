@@ -3,6 +3,7 @@
 #include "server/http/answers.h"
 #include "server/http/application.h"
 #include "server/http/problem.h"
+#include "server/http/quota.h"
 #include "server/http/service.h"
 
 namespace sheer::http {
@@ -26,11 +27,12 @@ std::string cookie(const Service& service, const std::string& secret, const char
                        more);
 }
 
-Response get_session(const Service& service, const Request& request) {
+Response get_session(Service& service, const Request& request) {
     answer::Session session{.required = service.access.is_required()};
     if (const auto token = service.access.token_of(request)) {
         session.name = token->name;
         session.scope = scope_text(token->scope);
+        session.quotas = quota_lines(service, *token);
     }
     return json_response(200, to_document(session));
 }

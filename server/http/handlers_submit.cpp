@@ -13,6 +13,7 @@
 #include "server/http/paths.h"
 #include "server/http/problem.h"
 #include "server/http/queue_speed.h"
+#include "server/http/quota.h"
 #include "server/http/report_view.h"
 #include "server/http/reuse.h"
 #include "server/http/service.h"
@@ -89,10 +90,19 @@ Submitted submit(Service& service, QueueSpeed& speed, const Request& request) {
     if (document.value("reuse", false) && spec.against.empty())
         if (auto known = reusable_report(service, report.spec_sha256)) return {std::move(*known), true};
     report.idempotency = idempotency_key(request, document);
-    const SubmitResult result = service.store.queue().submit(report, service.limits.max_queued);
+    const auto token = service.access.token_of(request);
+    if (token) report.sender = Sender{token->name, token->quota.jobs, token->quota.seconds};
+    report.cost_mpx = cost_mpx(spec);
+    const AnswerLimits& limits = service.limits;
+    const SubmitResult result = service.store.queue().submit(
+        report, {.jobs = limits.max_queued, .cost_mpx = static_cast<double>(limits.max_queued_cost)});
     if (result.outcome == SubmitResult::Outcome::queue_full)
-        throw Problem(429, fmt::format("{} comparisons are already waiting.", service.limits.max_queued))
+        throw Problem(429, fmt::format("The queue is full: it takes {} comparisons and {} megapixels (width x height x "
+                                       "rounds x methods x points).",
+                                       limits.max_queued, limits.max_queued_cost))
             .with("Retry-After", seconds_text(speed.until_a_place()));
+    if (result.outcome == SubmitResult::Outcome::too_many_jobs) throw too_many_jobs(*token, speed.until_a_place());
+    if (result.outcome == SubmitResult::Outcome::seconds_used_up) throw seconds_used_up(service, *token);
     if (result.outcome == SubmitResult::Outcome::key_reused)
         throw Problem(422, "This Idempotency-Key was used with another spec.");
     const auto record = service.store.reports().find(result.id);
@@ -180,7 +190,7 @@ std::vector<Route> submit_routes(Service& service) {
                {"Location", "ETag", "Preference-Applied", "Sheer-Reused"}},
               bad_spec,
               {429,
-               "The queue is full; Retry-After says when to try again",
+               "The queue is full, or the token's quota is used up; Retry-After says when to try again",
                "application/problem+json",
                "Problem",
                {"Retry-After"}},

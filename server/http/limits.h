@@ -34,6 +34,7 @@ struct JobLimits {
 /// What one request may ask for.
 struct AnswerLimits {
     std::size_t max_queued = 100;
+    std::int64_t max_queued_cost = 4'000'000'000;
     JobLimits job;
     std::uint64_t max_asset_bytes = 64 << 20;
     std::chrono::seconds max_wait{300};

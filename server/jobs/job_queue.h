@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -18,15 +19,35 @@ struct IdempotencyKey {
     std::string body_sha256;
 };
 
+/// The token with which a report was sent, and what its holder may take up (see TokenUse) without a new one being
+/// refused.
+struct Sender {
+    std::string token;
+    std::optional<std::int64_t> max_jobs, max_seconds;
+};
+
 struct NewReport {
     std::string id;
     std::string spec;  ///< canonical text of the normalised spec
     std::string spec_sha256;
     std::optional<IdempotencyKey> idempotency;
+    std::optional<Sender> sender;
+    double cost_mpx = 0;  ///< of rendering it, in whatever measure QueueLimits has
+};
+
+/// How much may wait.
+struct QueueLimits {
+    std::size_t jobs = 0;
+    double cost_mpx = std::numeric_limits<double>::infinity();  ///< of all together; one alone may be more
+
+    /// Beside `waiting` jobs of `waiting_mpx` for another one.
+    bool have_place(std::int64_t waiting, double waiting_mpx, double another_mpx) const {
+        return static_cast<std::size_t>(waiting) < jobs && (waiting == 0 || waiting_mpx + another_mpx <= cost_mpx);
+    }
 };
 
 struct SubmitResult {
-    enum class Outcome { created, repeated, key_reused, queue_full };
+    enum class Outcome { created, repeated, key_reused, queue_full, too_many_jobs, seconds_used_up };
     Outcome outcome = Outcome::created;
     std::string id;  ///< of the new report, or of the one that the key already names
 };
@@ -58,8 +79,9 @@ class JobQueue {
   public:
     virtual ~JobQueue() = default;
 
-    /// Queues a report, unless `max_queued` are already waiting or its idempotency key is known. Throws StoreFull.
-    virtual SubmitResult submit(const NewReport& report, std::size_t max_queued) = 0;
+    /// Queues a report, unless its idempotency key is known, more than `limits` would wait, or its sender takes up as
+    /// much as it may. Throws StoreFull.
+    virtual SubmitResult submit(const NewReport& report, const QueueLimits& limits) = 0;
 
     // The workers' side.
 

@@ -13,6 +13,7 @@
 #include "server/jobs/readiness.h"
 #include "server/jobs/report_archive.h"
 #include "server/jobs/trends.h"
+#include "server/jobs/usage.h"
 #include "server/jobs/workers.h"
 
 namespace sheer {
@@ -33,6 +34,7 @@ class Store {
     virtual Trends& trends() = 0;
     virtual Activity& activity() = 0;
     virtual Workers& workers() = 0;
+    virtual Usage& usage() = 0;
     virtual std::unique_ptr<ChangeWatch> watch() = 0;
     /// The same only for jobs that may be waiting for a worker now; null if workers have to ask the queue instead.
     virtual std::unique_ptr<ChangeWatch> watch_jobs() = 0;

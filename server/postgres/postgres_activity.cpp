@@ -71,6 +71,14 @@ std::vector<SeenWorker> PostgresWorkers::list(std::int64_t age_ms) {
     });
 }
 
+TokenUse PostgresUsage::of(const std::string& token) {
+    return m_database.read([&](Connection& connection) { return use_of(connection, token); });
+}
+
+void PostgresUsage::add_upload(const std::string& token, std::int64_t bytes) {
+    m_database.write([&](Connection& connection) { add_use(connection, token, 0, bytes); });
+}
+
 void PostgresReadiness::note_rendered() {
     m_database.write_lightly([](Connection& connection) { sheer::postgres::note_rendered(connection); });
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "server/jobs/activity.h"
 #include "server/jobs/readiness.h"
+#include "server/jobs/usage.h"
 #include "server/jobs/workers.h"
 #include "server/postgres/database.h"
 
@@ -20,6 +21,16 @@ class PostgresWorkers : public Workers {
     explicit PostgresWorkers(Database& database) : m_database(database) {}
     void note(const SeenWorker& worker) override;
     std::vector<SeenWorker> list(std::int64_t age_ms) override;
+
+  private:
+    Database& m_database;
+};
+
+class PostgresUsage : public Usage {
+  public:
+    explicit PostgresUsage(Database& database) : m_database(database) {}
+    TokenUse of(const std::string& token) override;
+    void add_upload(const std::string& token, std::int64_t bytes) override;
 
   private:
     Database& m_database;

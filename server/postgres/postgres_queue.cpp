@@ -22,19 +22,24 @@ std::optional<SubmitResult> result_of_key(Connection& connection, const Idempote
 
 }  // namespace
 
-SubmitResult PostgresQueue::submit(const NewReport& report, std::size_t max_queued) {
+SubmitResult PostgresQueue::submit(const NewReport& report, const QueueLimits& limits) {
     using Outcome = SubmitResult::Outcome;
     return m_database.write([&](Connection& connection) -> SubmitResult {
         if (report.idempotency)
             if (auto known = result_of_key(connection, *report.idempotency)) return *known;
-        const Rows queued =
-            connection.run("SELECT count(*) FROM (SELECT FROM jobs WHERE status = 'queued' LIMIT $1) waiting",
-                           {static_cast<std::int64_t>(max_queued)});
-        if (static_cast<std::size_t>(queued.integer(0, 0)) >= max_queued) return {Outcome::queue_full, ""};
+        const Rows queued = connection.run(
+            "SELECT count(*), coalesce(sum(cost_mpx), 0) FROM (SELECT cost_mpx FROM jobs WHERE status = 'queued' LIMIT "
+            "$1) waiting",
+            {static_cast<std::int64_t>(limits.jobs)});
+        if (!limits.have_place(queued.integer(0, 0), queued.number(0, 1), report.cost_mpx))
+            return {Outcome::queue_full, ""};
+        if (report.sender)
+            if (const auto no = refusal_of(*report.sender, use_of(connection, report.sender->token))) return {*no, ""};
         if (const std::string lack = find_lack_of_room(connection); !lack.empty()) throw StoreFull(lack);
         if (!insert_report(connection, report, std::nullopt)) throw Conflict("the same key came twice at once");
-        connection.run("INSERT INTO jobs (report_id, label) VALUES ($1, $2)",
-                       {report.id, wanted_device(nlohmann::json::parse(report.spec))});
+        connection.run("INSERT INTO jobs (report_id, label, token, cost_mpx) VALUES ($1, $2, $3, $4)",
+                       {report.id, wanted_device(nlohmann::json::parse(report.spec)),
+                        report.sender ? report.sender->token : std::string(), report.cost_mpx});
         tell_new_job(connection);
         return {Outcome::created, report.id};
     });
@@ -94,7 +99,7 @@ LeaseState PostgresQueue::heartbeat(const Lease& lease, double progress, const s
             "report_id = $1",
             {lease.id, m_database.rules().lease_ms, std::int64_t{before.flag(0, 3) ? 1 : 0},
              std::clamp(progress, 0.0, 1.0), stage});
-        count_stage_time(connection, before.text(0, 1), static_cast<double>(before.integer(0, 2)) / 1000);
+        count_stage_time(connection, lease.id, before.text(0, 1), static_cast<double>(before.integer(0, 2)) / 1000);
         if (before.flag(0, 3)) tell_change(connection);
         return before.flag(0, 0) ? LeaseState::cancel_requested : LeaseState::held;
     });
@@ -119,6 +124,7 @@ bool PostgresQueue::commit(const Lease& lease, const FinishedReport& finished) {
         put_blobs(connection, finished, false);
         const LeaseState state = locked_state(connection, lease);
         if (state == LeaseState::held) {
+            count_last_stage(connection, m_database.rules(), lease.id);
             finish_report(connection, lease.id, finished);
             note_rendered(connection);
             tell_change(connection);
@@ -135,6 +141,7 @@ void PostgresQueue::fail_by_signal(const Lease& lease, const JobError& error, in
     m_database.write([&](Connection& connection) {
         const LeaseState state = locked_state(connection, lease);
         if (state == LeaseState::lost) return;
+        count_last_stage(connection, m_database.rules(), lease.id);
         const bool again = !connection
                                 .run("SELECT FROM reports WHERE spec_sha256 = $1 AND died_of = $2 LIMIT 1",
                                      {lease.spec_sha256, std::int64_t{signal}})
@@ -166,6 +173,7 @@ void PostgresQueue::fail(const Lease& lease, const JobError& error, bool retry) 
     m_database.write([&](Connection& connection) {
         const LeaseState state = locked_state(connection, lease);
         if (state == LeaseState::lost) return;
+        count_last_stage(connection, m_database.rules(), lease.id);
         const bool cancelled = state == LeaseState::cancel_requested;
         Status status = cancelled ? Status::cancelled : Status::failed;
         if (retry) status = after_lost_attempt(lease.attempt, cancelled, m_database.rules());
@@ -175,8 +183,9 @@ void PostgresQueue::fail(const Lease& lease, const JobError& error, bool retry) 
 
 void PostgresQueue::cancel(const Lease& lease) {
     m_database.write([&](Connection& connection) {
-        if (locked_state(connection, lease) != LeaseState::lost)
-            end_attempt(connection, lease.id, {}, Status::cancelled);
+        if (locked_state(connection, lease) == LeaseState::lost) return;
+        count_last_stage(connection, m_database.rules(), lease.id);
+        end_attempt(connection, lease.id, {}, Status::cancelled);
     });
 }
 

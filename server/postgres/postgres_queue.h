@@ -11,7 +11,7 @@ class PostgresQueue : public JobQueue {
   public:
     explicit PostgresQueue(Database& database) : m_database(database) {}
 
-    SubmitResult submit(const NewReport& report, std::size_t max_queued) override;
+    SubmitResult submit(const NewReport& report, const QueueLimits& limits) override;
     std::optional<Lease> lease(const std::string& owner, const std::string& label) override;
     LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) override;
     LeaseState state(const Lease& lease) override;

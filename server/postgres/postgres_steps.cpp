@@ -97,9 +97,48 @@ void count_lost_lease(Connection& connection) {
     add_to_counter(connection, lost_leases_counter, 1);
 }
 
-void count_stage_time(Connection& connection, const std::string& stage, double seconds) {
+void count_stage_time(Connection& connection, const std::string& id, const std::string& stage, double seconds) {
     const std::string kind = kind_of_stage(stage);
     add_to_counter(connection, stage_counter_prefix + (kind.empty() ? "starting" : kind), seconds);
+    const Rows sender = connection.run("SELECT token FROM jobs WHERE report_id = $1 AND token <> ''", {id});
+    if (!sender.empty()) add_use(connection, sender.text(0, 0), seconds, 0);
+}
+
+void count_last_stage(Connection& connection, const LeaseRules& rules, const std::string& id) {
+    const Rows job = connection.run(
+        "SELECT stage, greatest(now_ms() - lease_until_ms + $2, 0) FROM jobs WHERE report_id = $1 AND lease_until_ms "
+        "IS "
+        "NOT NULL",
+        {id, rules.lease_ms});
+    if (!job.empty()) count_stage_time(connection, id, job.text(0, 0), static_cast<double>(job.integer(0, 1)) / 1000);
+}
+
+void add_use(Connection& connection, const std::string& token, double seconds, std::int64_t upload_bytes) {
+    connection.run(
+        fmt::format("INSERT INTO token_use VALUES ($1, now_ms() / $2, {}, $3, $4) ON CONFLICT (token, hour, part) DO "
+                    "UPDATE SET seconds = token_use.seconds + excluded.seconds, upload_bytes = token_use.upload_bytes "
+                    "+ excluded.upload_bytes",
+                    part),
+        {token, use_hour_ms, seconds, upload_bytes});
+    connection.run(
+        "DELETE FROM token_use WHERE (token, hour, part) IN (SELECT token, hour, part FROM token_use WHERE hour <= "
+        "now_ms() / $1 - $2 FOR UPDATE SKIP LOCKED)",
+        {use_hour_ms, use_hours});
+}
+
+TokenUse use_of(Connection& connection, const std::string& token) {
+    TokenUse use;
+    const Rows jobs = connection.run("SELECT count(*) FROM jobs WHERE token = $1", {token});
+    use.jobs = jobs.integer(0, 0);
+    const Rows day = connection.run(
+        "SELECT sum(seconds), sum(upload_bytes)::bigint, min(hour) FROM token_use WHERE token = $1 AND hour > now_ms() "
+        "/ $2 - $3",
+        {token, use_hour_ms, use_hours});
+    if (day.is_null(0, 2)) return use;
+    use.seconds = day.number(0, 0);
+    use.upload_bytes = day.integer(0, 1);
+    use.less_at_ms = (day.integer(0, 2) + use_hours) * use_hour_ms;
+    return use;
 }
 
 }  // namespace sheer::postgres

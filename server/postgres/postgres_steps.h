@@ -5,6 +5,7 @@
 #include "server/jobs/job_error.h"
 #include "server/jobs/job_queue.h"
 #include "server/jobs/status.h"
+#include "server/jobs/usage.h"
 #include "server/postgres/database.h"
 
 namespace sheer::postgres {
@@ -34,7 +35,12 @@ void try_again_what_lacked_room(Connection& connection);
 std::string find_lack_of_room(Connection& connection);
 void note_rendered(Connection& connection);
 void count_lost_lease(Connection& connection);
-/// Adds to the seconds of the stage's kind.
-void count_stage_time(Connection& connection, const std::string& stage, double seconds);
+/// Adds the time of a job to the seconds of its stage's kind, and to those of its token.
+void count_stage_time(Connection& connection, const std::string& id, const std::string& stage, double seconds);
+/// The same with the time since the job's last heartbeat. Call it before the job's end is written.
+void count_last_stage(Connection& connection, const LeaseRules& rules, const std::string& id);
+/// Adds to what the token took up in this hour.
+void add_use(Connection& connection, const std::string& token, double seconds, std::int64_t upload_bytes);
+TokenUse use_of(Connection& connection, const std::string& token);
 
 }  // namespace sheer::postgres

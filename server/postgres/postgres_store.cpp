@@ -29,6 +29,7 @@ struct PostgresStore::Parts {
     postgres::PostgresTrends trends{database};
     postgres::PostgresActivity activity{database};
     postgres::PostgresWorkers workers{database};
+    postgres::PostgresUsage usage{database};
 };
 
 PostgresStore::PostgresStore(const std::string& url, const std::filesystem::path& folder, LeaseRules rules,
@@ -69,6 +70,9 @@ Activity& PostgresStore::activity() {
 }
 Workers& PostgresStore::workers() {
     return m_parts->workers;
+}
+Usage& PostgresStore::usage() {
+    return m_parts->usage;
 }
 std::unique_ptr<ChangeWatch> PostgresStore::watch() {
     return std::make_unique<postgres::PostgresWatch>(m_parts->database.address(), postgres::changes_channel);

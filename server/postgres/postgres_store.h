@@ -35,6 +35,7 @@ class PostgresStore : public Store {
     Trends& trends() override;
     Activity& activity() override;
     Workers& workers() override;
+    Usage& usage() override;
     std::unique_ptr<ChangeWatch> watch() override;
     std::unique_ptr<ChangeWatch> watch_jobs() override;
     void bring_here(const std::string& text) override;

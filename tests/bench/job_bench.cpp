@@ -52,7 +52,7 @@ void job(benchmark::State& state) {
                               .spec = spec.canonical_text(),
                               .spec_sha256 = sha256_hex(spec.canonical_text()),
                               .idempotency = {}},
-                             1);
+                             {1});
         const auto lease = store.queue().lease("bench");
         rendering.run(true);
         const auto context = make_context("egl");

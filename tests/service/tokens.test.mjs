@@ -15,8 +15,8 @@ function token(data, ...words) {
   return { code: status, out: stdout, err: stderr };
 }
 
-function created(data, name, scope) {
-  const { code, out, err } = token(data, "create", name, "--scope", scope);
+function created(data, name, scope, ...quotas) {
+  const { code, out, err } = token(data, "create", name, "--scope", scope, ...quotas);
   assert.equal(code, 0, err);
   assert.match(out, /^sheer_[0-9a-f]{64}\n$/);
   return out.trim();
@@ -176,7 +176,7 @@ test("a session keeps the token in a cookie that scripts and other sites do not 
         headers: { ...(body && { "Content-Type": "application/json" }), ...headers },
         body: body && JSON.stringify(body),
       });
-    assert.deepEqual(await (await session("GET")).json(), { required: true, name: null, scope: null });
+    assert.deepEqual(await (await session("GET")).json(), { required: true, name: null, scope: null, quotas: [] });
     await assert_problem(await session("POST", { token: "sheer_no" }), 401);
     await assert_problem(await session("POST", {}), 422);
     const begun = await session("POST", { token: secrets.submit });
@@ -188,11 +188,66 @@ test("a session keeps the token in a cookie that scripts and other sites do not 
       required: true,
       name: "my-submit",
       scope: "submit",
+      quotas: [],
     });
     assert.equal((await service.post(QUICK, sent)).status, 202);
     const foreign = await service.post(QUICK, { ...sent, Origin: "https://evil.example" });
     assert.equal(foreign.status, 403, "pages of other sites may not use the cookie");
     assert.match((await session("DELETE")).headers.get("Set-Cookie"), /^sheer_token=; .*Max-Age=0$/);
+  }));
+
+test("the quotas of a token limit its jobs, seconds and uploads, and no other's", () =>
+  with_service({ workers: 0 }, async (service) => {
+    const secret = created(service.data, "ci", "submit", "--max-jobs", "2", "--max-upload-bytes", "1000");
+    const spent = created(service.data, "spent", "submit", "--max-seconds", "0");
+    const other = created(service.data, "other", "submit");
+    assert.match(
+      token(service.data, "list").out,
+      /^ci .* at most 2 comparisons that wait or run {2}at most 1000 bytes/,
+    );
+    assert.equal(token(service.data, "create", "less", "--max-jobs", "-1").code, 2);
+
+    const posted = await service.post(QUICK, { ...bearer(secret), "Idempotency-Key": "one" });
+    assert.equal(posted.status, 202);
+    const first = await posted.json();
+    assert.equal((await service.post(QUICK, bearer(secret))).status, 202);
+    const third = await service.post(QUICK, bearer(secret));
+    assert.ok(Number(third.headers.get("Retry-After")) >= 1);
+    assert.equal(
+      (await assert_problem(third, 429)).detail,
+      'The quota of "ci" is used up: 2 comparisons that wait or run.',
+    );
+    const again = await service.post(QUICK, { ...bearer(secret), "Idempotency-Key": "one" });
+    assert.equal((await again.json()).id, first.id, "what is known is not new");
+    assert.equal((await service.post(QUICK, bearer(other))).status, 202);
+    const cancelled = await fetch(`${service.api}/reports/${first.id}`, { method: "DELETE", headers: bearer(secret) });
+    assert.ok(cancelled.ok);
+    assert.equal((await service.post(QUICK, bearer(secret))).status, 202);
+
+    const never = await service.post(QUICK, bearer(spent));
+    assert.match((await assert_problem(never, 429)).detail, /"spent" is used up: 0 seconds of rendering within a day/);
+
+    const upload = (bytes, key) =>
+      fetch(`${service.api}/assets`, {
+        method: "POST",
+        headers: { ...bearer(key), "Content-Type": "image/png" },
+        body: Buffer.alloc(bytes, `${bytes}`),
+      });
+    assert.equal((await upload(600, secret)).status, 422, "no picture, but it was read");
+    const large = await upload(401, secret);
+    assert.ok(Number(large.headers.get("Retry-After")) > 82_000, "until the hour has left the day");
+    assert.match((await assert_problem(large, 429)).detail, /1000 bytes of uploads within a day/);
+    assert.equal((await upload(400, secret)).status, 422);
+    assert.equal((await upload(5000, other)).status, 422);
+
+    const { quotas } = await (await fetch(`${service.api}/session`, { headers: bearer(secret) })).json();
+    assert.deepEqual(
+      quotas.map(({ name, limit, used }) => [name, limit, used]),
+      [
+        ["jobs", 2, 2],
+        ["upload_bytes", 1000, 1000],
+      ],
+    );
   }));
 
 /** In a network namespace of its own, so that nothing is reachable from anywhere. */

@@ -38,24 +38,41 @@ TEST_P(ArchiveTest, AQueuedReportIsFoundWithItsSpec) {
 
 TEST_P(ArchiveTest, TheQueueIsLimited) {
     const auto report = [&] { return NewReport{.id = m_ids.next(), .spec = "{}", .spec_sha256 = ""}; };
-    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::created);
-    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::created);
-    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::queue_full);
+    EXPECT_EQ(m_queue.submit(report(), {2}).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report(), {2}).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report(), {2}).outcome, Outcome::queue_full);
     EXPECT_EQ(m_reports.list({}).reports.size(), 2u);
     lease();  // a running job is no longer waiting
-    EXPECT_EQ(m_queue.submit(report(), 2).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report(), {2}).outcome, Outcome::created);
+}
+
+TEST_P(ArchiveTest, TheCostOfTheQueueIsLimited) {
+    const auto submitted = [&](double cost_mpx) {
+        NewReport report{.id = m_ids.next(), .spec = "{}", .spec_sha256 = ""};
+        report.cost_mpx = cost_mpx;
+        return m_queue.submit(report, {.jobs = 10, .cost_mpx = 100}).outcome;
+    };
+    EXPECT_EQ(submitted(60.5), Outcome::created);
+    EXPECT_EQ(submitted(39.5), Outcome::created);
+    EXPECT_EQ(submitted(0.25), Outcome::queue_full);
+    lease();  // the first one
+    EXPECT_EQ(submitted(60.75), Outcome::queue_full);
+    EXPECT_EQ(submitted(60.5), Outcome::created);
+    lease();
+    lease();
+    EXPECT_EQ(submitted(1000), Outcome::created) << "what is too much beside others is not too much alone";
 }
 
 TEST_P(ArchiveTest, AKeyNamesOneReportAndOneBody) {
     NewReport report{.id = m_ids.next(), .spec = "{}", .spec_sha256 = "", .idempotency = IdempotencyKey{"key", "body"}};
     const std::string id = report.id;
-    EXPECT_EQ(m_queue.submit(report, 1).outcome, Outcome::created);
+    EXPECT_EQ(m_queue.submit(report, {1}).outcome, Outcome::created);
     report.id = m_ids.next();
-    const SubmitResult repeated = m_queue.submit(report, 1);  // although the queue is full
+    const SubmitResult repeated = m_queue.submit(report, {1});  // although the queue is full
     EXPECT_EQ(repeated.outcome, Outcome::repeated);
     EXPECT_EQ(repeated.id, id);
     report.idempotency->body_sha256 = "other";
-    EXPECT_EQ(m_queue.submit(report, 1).outcome, Outcome::key_reused);
+    EXPECT_EQ(m_queue.submit(report, {1}).outcome, Outcome::key_reused);
     EXPECT_EQ(m_reports.list({}).reports.size(), 1u);
 }
 

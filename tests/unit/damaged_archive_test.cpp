@@ -168,7 +168,7 @@ class OpeningTest : public testing::Test {
         SqliteStore store = open();
         NewReport report{
             .id = "01900000-0000-7000-8000-000000000000", .spec = R"({"title": "kept"})", .spec_sha256 = "x"};
-        store.queue().submit(report, 10);
+        store.queue().submit(report, {10});
         const FinishedReport finished{.report = {{"verdict", "none"}},
                                       .blobs = {{sha256_hex("picture"), "image/png"}},
                                       .read_blob = [](const std::string&) { return "picture"; }};
@@ -246,7 +246,7 @@ TEST_F(OpeningTest, OursIsRecognizedByItsIdAndAnOlderOneByItsTables) {
 TEST_F(OpeningTest, ACopyOfTheDatabaseOfAnIdleStoreHasAllReports) {
     SqliteStore store = open();
     NewReport report{.id = "01900000-0000-7000-8000-000000000000", .spec = R"({"title": "kept"})", .spec_sha256 = "x"};
-    store.queue().submit(report, 10);
+    store.queue().submit(report, {10});
     const FinishedReport finished{.report = {{"verdict", "none"}}};
     ASSERT_TRUE(store.queue().commit(store.queue().lease("worker").value(), finished));
     fs::create_directories(m_folder.path() / "copy");

@@ -53,7 +53,7 @@ class DamagesTest : public WithSqlite {
                                          {"tags", {{"branch", i % 2 ? "main" : "topic"}}}};
             NewReport report{.id = m_ids.next(), .spec = spec.dump()};
             report.spec_sha256 = sha256_hex(report.spec);
-            store.queue().submit(report, 100);
+            store.queue().submit(report, {100});
             const Lease job = *store.queue().lease("worker");
             if (i % 5 == 4) {
                 store.queue().fail(job, {"Rendering failed", "as planned"}, false);

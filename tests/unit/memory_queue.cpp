@@ -31,13 +31,26 @@ void end_attempt(Job& job, const JobError& error, Status status, std::int64_t no
     if (status == Status::failed) job.record.error = error;
 }
 
+TokenUse use_of(const Reading& state, std::int64_t now_ms, const std::string& token) {
+    TokenUse use;
+    for (const auto& [id, job] : state->jobs)
+        if (job.sender && job.sender->token == token && !is_final(job.record.status)) ++use.jobs;
+    for (const auto& [key, hour] : state->token_hours) {
+        if (key.first != token || key.second <= now_ms / use_hour_ms - use_hours) continue;
+        use.seconds += hour.seconds;
+        use.upload_bytes += hour.upload_bytes;
+        if (!use.less_at_ms) use.less_at_ms = (key.second + use_hours) * use_hour_ms;
+    }
+    return use;
+}
+
 namespace {
 
 class Queue : public JobQueue {
   public:
     explicit Queue(const Base& base) : m_base(base) {}
 
-    SubmitResult submit(const NewReport& report, std::size_t max_queued) override {
+    SubmitResult submit(const NewReport& report, const QueueLimits& limits) override {
         using Outcome = SubmitResult::Outcome;
         const Writing state(*m_base.state);
         for (const auto& [id, job] : state->jobs)
@@ -45,11 +58,22 @@ class Queue : public JobQueue {
                 const bool same = job.idempotency->body_sha256 == report.idempotency->body_sha256;
                 return {same ? Outcome::repeated : Outcome::key_reused, id};
             }
-        const auto queued = std::ranges::count_if(
-            state->jobs, [](const auto& each) { return each.second.record.status == Status::queued; });
-        if (static_cast<std::size_t>(queued) >= max_queued) return {Outcome::queue_full, ""};
+        std::int64_t queued = 0;
+        double cost_mpx = 0;
+        for (const auto& [id, job] : state->jobs) {
+            if (job.record.status != Status::queued) continue;
+            ++queued;
+            cost_mpx += job.cost_mpx;
+        }
+        if (!limits.have_place(queued, cost_mpx, report.cost_mpx)) return {Outcome::queue_full, ""};
+        if (report.sender)
+            if (const auto no = refusal_of(*report.sender, use_of(state, m_base.clock(), report.sender->token)))
+                return {*no, ""};
         if (const std::string lack = lack_of_room(state, m_base.clock()); !lack.empty()) throw StoreFull(lack);
-        Job job{.facets = facets_of(json::parse(report.spec)), .idempotency = report.idempotency};
+        Job job{.facets = facets_of(json::parse(report.spec)),
+                .idempotency = report.idempotency,
+                .sender = report.sender,
+                .cost_mpx = report.cost_mpx};
         job.record.id = report.id;
         job.record.revision = 1;
         job.record.created_ms = m_base.clock();
@@ -84,6 +108,7 @@ class Queue : public JobQueue {
         const Writing state(*m_base.state);
         Job* const job = find(state, lease);
         if (job == nullptr) return LeaseState::lost;
+        count_time(state, *job);
         job->lease_until_ms = m_base.clock() + m_base.rules.lease_ms;
         job->record.revision += job->record.progress != progress || job->record.stage != stage;
         job->record.progress = std::clamp(progress, 0.0, 1.0);
@@ -107,6 +132,7 @@ class Queue : public JobQueue {
         Job* const job = find(state, lease);
         if (state_of(job) == LeaseState::cancel_requested) end_attempt(*job, {}, Status::cancelled, m_base.clock());
         if (job == nullptr || job->record.status != Status::running) return false;
+        count_time(state, *job);
         state->blobs.merge(pictures);
         end_attempt(*job, {}, Status::done, finished.finished_ms);
         job->record.progress = 1;
@@ -120,6 +146,7 @@ class Queue : public JobQueue {
     void fail(const Lease& lease, const JobError& error, bool retry) override {
         const Writing state(*m_base.state);
         if (Job* const job = find(state, lease)) {
+            count_time(state, *job);
             const Status over = job->cancel_requested ? Status::cancelled : Status::failed;
             end(*job, error, retry ? after_lost_attempt(job->attempts, job->cancel_requested, m_base.rules) : over);
         }
@@ -129,6 +156,7 @@ class Queue : public JobQueue {
         const Writing state(*m_base.state);
         Job* const job = find(state, lease);
         if (job == nullptr) return;
+        count_time(state, *job);
         const bool again = std::ranges::any_of(state->jobs, [&](const auto& each) {
             return each.second.record.spec_sha256 == lease.spec_sha256 && each.second.died_of == signal;
         });
@@ -151,7 +179,10 @@ class Queue : public JobQueue {
 
     void cancel(const Lease& lease) override {
         const Writing state(*m_base.state);
-        if (Job* const job = find(state, lease)) end(*job, {}, Status::cancelled);
+        if (Job* const job = find(state, lease)) {
+            count_time(state, *job);
+            end(*job, {}, Status::cancelled);
+        }
     }
 
     void release(const Lease& lease) override {
@@ -176,6 +207,13 @@ class Queue : public JobQueue {
         const bool held =
             job.record.status == Status::running && job.owner == lease.owner && job.attempts == lease.attempt;
         return held ? &job : nullptr;
+    }
+
+    void count_time(const Writing& state, const Job& job) const {
+        if (!job.sender) return;
+        const std::int64_t last_ms = job.lease_until_ms - m_base.rules.lease_ms;
+        state->token_hours[{job.sender->token, m_base.clock() / use_hour_ms}].seconds +=
+            static_cast<double>(m_base.clock() - last_ms) / 1000;
     }
 
     static LeaseState state_of(const Job* job) {

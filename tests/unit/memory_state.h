@@ -15,6 +15,8 @@ struct Job {
     ReportRecord record;
     Facets facets;
     std::optional<IdempotencyKey> idempotency;
+    std::optional<Sender> sender;
+    double cost_mpx = 0;
     std::string owner;
     int attempts = 0, setbacks = 0;
     std::int64_t lease_until_ms = 0, not_before_ms = 0;
@@ -50,6 +52,7 @@ struct MemoryState {
     std::vector<AcceptedReport> accepted;
     std::map<std::string, Pin> pins;
     std::map<std::string, SeenWorker> workers;
+    std::map<std::pair<std::string, std::int64_t>, TokenUse> token_hours;
     std::optional<std::int64_t> last_rendered_ms;
 };
 
@@ -94,6 +97,8 @@ struct Base {
 std::string lack_of_room(const Reading& state, std::int64_t now_ms);
 void requeue(Job& job, int attempts);
 void end_attempt(Job& job, const JobError& error, Status status, std::int64_t now_ms);
+
+TokenUse use_of(const Reading& state, std::int64_t now_ms, const std::string& token);
 
 std::unique_ptr<JobQueue> make_queue(const Base& base);
 

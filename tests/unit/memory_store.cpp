@@ -330,6 +330,18 @@ class Seen : public Workers {
     const Base& m_base;
 };
 
+class Used : public Usage {
+  public:
+    explicit Used(const Base& base) : m_base(base) {}
+    TokenUse of(const std::string& token) override { return use_of(Reading(*m_base.state), m_base.clock(), token); }
+    void add_upload(const std::string& token, std::int64_t bytes) override {
+        Writing(*m_base.state)->token_hours[{token, m_base.clock() / use_hour_ms}].upload_bytes += bytes;
+    }
+
+  private:
+    const Base& m_base;
+};
+
 class NoTrends : public Trends {
   public:
     std::vector<TrendReport> reports(const ListFilter&) override { return {}; }
@@ -385,6 +397,7 @@ struct MemoryStore::Parts {
     memory_store::NoTrends trends;
     memory_store::NoActivity activity;
     memory_store::Seen workers{base};
+    memory_store::Used usage{base};
 };
 
 MemoryStore::MemoryStore(std::shared_ptr<MemoryState> state, LeaseRules rules, ClockMs clock)
@@ -424,6 +437,9 @@ Activity& MemoryStore::activity() {
 }
 Workers& MemoryStore::workers() {
     return m_parts->workers;
+}
+Usage& MemoryStore::usage() {
+    return m_parts->usage;
 }
 std::unique_ptr<ChangeWatch> MemoryStore::watch() {
     return std::make_unique<memory_store::Watch>(m_parts->base.state);

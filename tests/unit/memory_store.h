@@ -29,6 +29,7 @@ class MemoryStore : public Store {
     Trends& trends() override;
     Activity& activity() override;
     Workers& workers() override;
+    Usage& usage() override;
     std::unique_ptr<ChangeWatch> watch() override;
     std::unique_ptr<ChangeWatch> watch_jobs() override { return nullptr; }
     void bring_here(const std::string&) override {}

@@ -138,7 +138,7 @@ TEST_P(PostgresStoreTest, ManyProcessesMayMakeItAtOnce) {
 TEST_P(PostgresStoreTest, TheDatabasesClockDecides) {
     const auto store = open();
     const NewReport report{.id = m_ids.next(), .spec = "{}", .spec_sha256 = sha256_hex("{}")};
-    store->queue().submit(report, 10);
+    store->queue().submit(report, {10});
     const std::int64_t created_ms = store->reports().find(report.id)->created_ms;
     EXPECT_LT(std::abs(created_ms - system_now_ms()), 60'000);
     EXPECT_TRUE(store->queue().lease("worker"));

@@ -50,7 +50,7 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
                  "drain_bytes": 7, "spool_bytes": 2000000, "idle_timeout_s": 8, "header_timeout_s": 9, "body_timeout_s": 10.5,
                  "write_timeout_s": 11, "event_heartbeat_s": 12, "stop_timeout_s": 13, "max_wait_s": 14,
                  "ready_within_s": 15, "devices_cache_s": 16},
-        "jobs": {"max_queued": 17, "lease_s": 19, "heartbeat_s": 18, "max_attempts": 5},
+        "jobs": {"max_queued": 17, "max_queued_cost": 18000, "lease_s": 19, "heartbeat_s": 18, "max_attempts": 5},
         "assets": {"max_bytes": 1027, "check_memory_bytes": 21, "check_time_s": 22},
         "worker": {"memory_limit_bytes": 23, "output_limit_bytes": 22, "time_limit_s": 24, "pixel_time_limit_s": 25, "poll_s": 0.25,
                    "probe_interval_s": 27}})"));
@@ -76,6 +76,7 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
     EXPECT_EQ(config.answers.ready_within, 15s);
     EXPECT_EQ(config.devices_cache, 16s);
     EXPECT_EQ(config.answers.max_queued, 17u);
+    EXPECT_EQ(config.answers.max_queued_cost, 18'000);
     EXPECT_EQ(config.answers.max_checks, 5);
     EXPECT_EQ(config.answers.max_diffs, 5);
     EXPECT_EQ(config.leases.heartbeat_ms, 18'000);
@@ -86,8 +87,8 @@ TEST(ServiceConfigTest, EveryFieldHasItsOwnPlace) {
     EXPECT_EQ(config.upload_check.memory_bytes, 21u);
     EXPECT_EQ(config.upload_check.time, 22s);
     EXPECT_EQ(config.worker.memory_limit_bytes, 23u);
-    EXPECT_EQ(config.question.memory_bytes, 23u);
     EXPECT_EQ(config.worker.output_limit_bytes, 22u);
+    EXPECT_EQ(config.question.memory_bytes, 23u);
     EXPECT_EQ(config.worker.time_limit, 24s);
     EXPECT_EQ(config.question.time, 25s);
     EXPECT_EQ(config.worker.poll_interval, 250ms);

@@ -70,20 +70,20 @@ TEST_P(SetbackTest, NothingIsAcceptedWhileAReportLacksRoom) {
     m_queue.set_back(lease(), no_room, true);
     EXPECT_THAT(m_readiness.lack_of_room(), HasSubstr("did not fit"));
     NewReport next{.id = m_ids.next(), .spec = "{}", .spec_sha256 = "x"};
-    EXPECT_THROW(m_queue.submit(next, 100), StoreFull);
+    EXPECT_THROW(m_queue.submit(next, {100}), StoreFull);
     EXPECT_THROW(m_assets.add({.sha256 = sha256_hex("a"), .facts = json::object()}, "a"), StoreFull);
     // A deletion makes room, and the job no longer has to wait.
     EXPECT_EQ(m_reports.remove(done), Removal::deleted);
     EXPECT_EQ(m_readiness.lack_of_room(), "");
-    EXPECT_EQ(m_queue.submit(next, 100).outcome, SubmitResult::Outcome::created);
+    EXPECT_EQ(m_queue.submit(next, {100}).outcome, SubmitResult::Outcome::created);
     EXPECT_TRUE(m_queue.lease("worker"));
 }
 
 TEST_P(SetbackTest, AKnownKeyIsAnsweredWithoutRoomToo) {
     NewReport report{.id = m_ids.next(), .spec = "{}", .spec_sha256 = "", .idempotency = IdempotencyKey{"key", "body"}};
-    m_queue.submit(report, 100);
+    m_queue.submit(report, {100});
     m_queue.set_back(lease(), no_room, true);
-    EXPECT_EQ(m_queue.submit(report, 100).outcome, SubmitResult::Outcome::repeated);
+    EXPECT_EQ(m_queue.submit(report, {100}).outcome, SubmitResult::Outcome::repeated);
 }
 
 TEST_P(SetbackTest, ACommitThatFailsLeavesNoPictures) {

@@ -77,7 +77,7 @@ class StoreFixture {
         spec.update(more);
         NewReport report{.id = m_ids.next(), .spec = spec.dump()};
         report.spec_sha256 = sha256_hex(report.spec);
-        EXPECT_EQ(m_queue.submit(report, 100).outcome, SubmitResult::Outcome::created);
+        EXPECT_EQ(m_queue.submit(report, {100}).outcome, SubmitResult::Outcome::created);
         return report.id;
     }
 

@@ -139,7 +139,7 @@ class Load {
         m_now_ms += minutes_apart_ms;
         NewReport report{.id = m_ids.next(), .spec = spec_of(i).dump()};
         report.spec_sha256 = sha256_hex(std::to_string(i % specs));
-        m_store.queue().submit(report, 10);
+        m_store.queue().submit(report, {10});
         const auto lease = m_store.queue().lease("load");
         m_store.queue().commit(*lease, {.report = report_of(lease->id), .finished_ms = m_now_ms + 60'000});
     }

@@ -53,7 +53,7 @@ void submit(const Place& place, int jobs) {
             {"title", fmt::format("job {}", i)}, {"scene", {{"type", "quads"}}}, {"methods", {{{"id", "b2f"}}}}};
         NewReport report{.id = ids.next(), .spec = spec.dump()};
         report.spec_sha256 = sha256_hex(report.spec);
-        store->queue().submit(report, 1'000'000);
+        store->queue().submit(report, {1'000'000});
     }
 }
 

@@ -34,7 +34,7 @@ class TrendLoad {
     void fill(int count) {
         for (int i = static_cast<int>(m_store.reports().list({.limit = 1}).count); i < count; ++i) {
             m_now_ms += hour_ms;
-            m_store.queue().submit({.id = m_ids.next(), .spec = m_spec, .spec_sha256 = sha256_hex(m_spec)}, 10);
+            m_store.queue().submit({.id = m_ids.next(), .spec = m_spec, .spec_sha256 = sha256_hex(m_spec)}, {10});
             const auto lease = m_store.queue().lease("load");
             const TrendValues values = values_of(i);
             m_store.queue().commit(*lease, {.report = {{"id", lease->id}, {"device", {{"renderer", renderer}}}},
