@@ -36,7 +36,7 @@ constexpr std::chrono::seconds slow_header{1}, slow_body{10};
 // A new connection has not had time to send a request.
 constexpr std::chrono::milliseconds newcomer_time{250};
 constexpr std::string_view sign_of_life = ":\n\n";
-// The part of a picture that is read and sent at a time.
+// The part of a body that is read and sent at a time.
 constexpr std::uint64_t piece_bytes = 64 << 10;
 // A longer body goes to a file until it is complete.
 constexpr std::uint64_t longest_body_in_memory = 1 << 20;
@@ -254,7 +254,7 @@ class TcpSession : public Session {
     asio::awaitable<bool> reject(std::optional<Response> response) {
         if (!response) co_return false;
         m_close = true;
-        co_await write_response(*response);
+        co_await write_response(std::move(*response));
         beast::error_code ignored;
         m_stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
         std::array<char, 65536> dropped;
@@ -269,7 +269,7 @@ class TcpSession : public Session {
     }
 
     asio::awaitable<bool> write_answer(Answer answer) {
-        if (auto* response = std::get_if<Response>(&answer)) co_return co_await write_response(*response);
+        if (auto* response = std::get_if<Response>(&answer)) co_return co_await write_response(std::move(*response));
         if (auto* waiting = std::get_if<Waiting>(&answer)) co_return co_await write_when_ready(*waiting);
         co_return co_await write_events(std::get<EventStream>(answer));
     }
@@ -284,7 +284,7 @@ class TcpSession : public Session {
             const auto left = std::chrono::ceil<Milliseconds>(deadline - SteadyClock::now());
             if (!response && (left <= Milliseconds(0) || m_context.stopping))
                 response = co_await on_pool(m_context.pool, [&] { return waiting.otherwise(); });
-            if (response) co_return co_await write_response(*response);
+            if (response) co_return co_await write_response(std::move(*response));
             const bool there = co_await wait_for_change(seen, left);
             if (!there) co_return false;
         }
@@ -363,17 +363,17 @@ class TcpSession : public Session {
         message.keep_alive(!m_close && !m_context.stopping && m_version == 11);
     }
 
-    asio::awaitable<bool> write_response(const Response& response) {
+    asio::awaitable<bool> write_response(Response response) {
         m_read_ahead = false;
         const auto* content = std::get_if<ContentPtr>(&response.body);
         if (content) co_return co_await write_content(response, **content);
-        const std::string& text = std::get<std::string>(response.body);
+        std::string& text = std::get<std::string>(response.body);
         const bool has_body = response.status != 204 && response.status != 304;
         if (m_head || !has_body)
             co_return co_await write_empty(response, has_body ? std::optional(text.size()) : std::nullopt);
         bhttp::response<bhttp::string_body> message;
         fill_head(message, response);
-        message.body() = text;
+        message.body() = std::move(text);
         message.prepare_payload();
         co_return co_await write_message(message);
     }
@@ -421,6 +421,8 @@ class TcpSession : public Session {
     template <typename Body>
     asio::awaitable<bool> send(bhttp::response<Body>& message) {
         bhttp::response_serializer<Body> serializer(message);
+        // Others have their turn in between.
+        serializer.limit(piece_bytes);
         while (!serializer.is_done()) {
             m_stream.expires_after(m_limits.write_timeout);
             auto [error, count] = co_await bhttp::async_write_some(m_stream, serializer, token);
@@ -433,7 +435,7 @@ class TcpSession : public Session {
     asio::awaitable<bool> write_text(std::string_view text) {
         while (!text.empty()) {
             m_stream.expires_after(m_limits.write_timeout);
-            auto [error, count] = co_await m_stream.async_write_some(asio::buffer(text), token);
+            auto [error, count] = co_await m_stream.async_write_some(asio::buffer(text, piece_bytes), token);
             if (error) co_return false;
             text.remove_prefix(count);
         }
