@@ -3,7 +3,6 @@
 #include <map>
 
 #include "embedded_web.h"
-#include "renderer/core/sha256.h"
 #include "server/http/service.h"
 
 namespace sheer::http {
@@ -32,9 +31,6 @@ std::string media_type_of_path(std::string_view path) {
 
 Route file_route(std::string pattern, const EmbeddedFile& file) {
     Response response = text_response(200, std::string(file.bytes), media_type_of_path(file.path));
-    const std::string hash = sha256_hex(std::string(file.bytes));
-    response.headers.add("ETag", fmt::format("\"{}\"", hash.substr(0, 32)));
-    response.headers.add("Cache-Control", "no-cache");
     response.headers.add("Content-Security-Policy", policy);
     response.headers.add("Cross-Origin-Opener-Policy", "same-origin");
     return {.method = "GET",
@@ -42,7 +38,7 @@ Route file_route(std::string pattern, const EmbeddedFile& file) {
             .id = "",
             .summary = "",
             .replies = {},
-            .handle = [response](const Request&) { return response; },
+            .handle = always(std::move(response)),
             .scope = Scope::none};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "renderer/core/sha256.h"
 #include "server/http/problem.h"
 #include "server/http/text.h"
 
@@ -42,6 +43,13 @@ json typed(const std::string& text, const std::vector<Param>& fields, const std:
 }
 
 }  // namespace
+
+Handler always(Response response) {
+    const std::string hash = sha256_hex(std::get<std::string>(response.body));
+    response.headers.add("ETag", fmt::format("\"{}\"", hash.substr(0, 32)));
+    response.headers.add("Cache-Control", "no-cache");
+    return [response = std::move(response)](const Request&) { return response; };
+}
 
 Scope Route::needed_scope() const {
     if (scope) return *scope;

@@ -14,6 +14,9 @@ namespace sheer::http {
 
 using Handler = std::function<Answer(const Request&)>;
 
+/// Answers with a body that does not change while the program runs, under an ETag made of it.
+Handler always(Response response);
+
 /// One possible answer, for the OpenAPI document.
 struct Reply {
     int status = 200;
