@@ -105,8 +105,8 @@ TEST_F(ApplicationTest, TheQueueIsLimitedByWorkToo) {
 
 TEST_F(ApplicationTest, WhatFailsSaysWhetherToTryAgain) {
     const auto failing = [&](auto error) {
-        m_service.list_devices = [error]() -> json { throw error; };
-        return get("/api/v1/devices");
+        m_service.check_upload = [error](const std::string&, const std::string&) -> UploadVerdict { throw error; };
+        return std::get<Response>(ask("POST", "/api/v1/assets", {{"Content-Type", "image/png"}}, "an upload"));
     };
     const Response unreachable = failing(StoreUnreachable("x")), broken = failing(DiskError("x"));
     EXPECT_EQ(unreachable.status, 503);
