@@ -39,7 +39,7 @@ const pictures_of = (report) =>
 async function on_disk(options, body) {
   const folder = mkdtempSync(join(tmpdir(), "sheer-disk-"));
   const service = new Service({ jobs: { max_queued: 1000 } }, folder);
-  mkdirSync(service.data);
+  mkdirSync(service.data, { recursive: true });
   service.wrapper = [...UNSHARE, "sh", "-c", `mount -t tmpfs -o ${options} none ${service.data} && exec "$@"`, "sh"];
   try {
     await service.start();

@@ -1,7 +1,16 @@
 // Starts the real program for a test, with its own port and folder.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from "node:fs";
 import http from "node:http";
 import { connect } from "node:net";
 import { tmpdir } from "node:os";
@@ -78,6 +87,9 @@ export function is_alive(pid) {
 /** With the URL of a PostgreSQL server here, each service gets a database of its own there. */
 const STORE = process.env.SHEER_TEST_STORE;
 
+/** A folder with the compiled shaders of all services, so that not each of them compiles the same ones. */
+const SHADERS = process.env.SHEER_TEST_SHADERS;
+
 /** For tests of what only the archive in a folder has. */
 export const needs_sqlite = STORE ? { skip: "of the archive in a folder" } : {};
 /** The reverse. */
@@ -103,6 +115,11 @@ export class Service {
     this.holds_to_contract = true; // checks every answer, which takes longer than most answers
     writeFileSync(this.config, JSON.stringify(config));
     if (STORE) this.make_database();
+    if (SHADERS && !existsSync(this.data)) {
+      mkdirSync(this.data);
+      mkdirSync(SHADERS, { recursive: true });
+      symlinkSync(SHADERS, join(this.data, "shaders"));
+    }
   }
 
   /** Services with the same folder share it. */
