@@ -4,7 +4,8 @@
 // two a fragment is taken to lie is the overestimation. The mean color, weighted with the transmittance in front, has
 // the exact opacity. The depth goes from -1 at the near to 1 at the far plane, which here fit the scene; the paper's is
 // the logarithm of the distance. An alpha of 1 would be an infinite absorbance, so there is a greatest one: 10 as in
-// the authors' code.
+// the authors' code. With 16 bits the moments are summed in half floats, which blend on any device, where the paper
+// quantizes means of moments to 16 bits, for which a fragment has to read what is there; the biases are the paper's.
 #include "renderer/methods/shared/two_pass_blending.h"
 
 namespace sheer {
@@ -13,9 +14,11 @@ namespace {
 
 struct MboitParameters {
     enum class Kind { power, trigonometric };
+    enum class Precision { float32, float16 };
 
     int moments = 4;
     Kind kind = Kind::power;
+    Precision precision = Precision::float32;
     double overestimation = 0.25;
     double bias_scale = 1;
     double greatest_absorbance = 10;
@@ -30,6 +33,10 @@ struct MboitParameters {
             .choice(&MboitParameters::kind, "kind",
                     "moments of the powers of the depth, or of e to the power of i times an angle that grows with it",
                     {{"power", Kind::power}, {"trigonometric", Kind::trigonometric}})
+            .choice(&MboitParameters::precision, "precision",
+                    "of the moments: float16 halves their memory and needs larger biases, so layers show through each "
+                    "other sooner",
+                    {{"float32", Precision::float32}, {"float16", Precision::float16}})
             .number(
                 &MboitParameters::overestimation, "overestimation",
                 "the part of a fragment's own absorbance that is taken to be in front of it: 0 is the least that the "
@@ -37,16 +44,18 @@ struct MboitParameters {
                 "", 0, 1)
             .number(
                 &MboitParameters::bias_scale, "bias_scale",
-                "factor of the authors' bias for 32-bit floats, which for 4, 6 and 8 moments is 5e-7, 5e-6 and 5e-5, "
-                "for trigonometric ones 4e-7, 8e-7 and 1.5e-6",
+                "factor of the authors' bias, which for 4, 6 and 8 moments is 5e-7, 5e-6 and 5e-5, for trigonometric "
+                "ones 4e-7, 8e-7 and 1.5e-6; with 16 bits 6e-5, 6e-4 and 2.5e-3, and 4e-4, 6.5e-4 and 8.5e-4",
                 "", 0.01, 1000)
             .number(&MboitParameters::greatest_absorbance, "greatest_absorbance",
                     "the most that one fragment absorbs, as a natural logarithm", "", 1, 80);
     }
     double bias() const {
-        const double biases[2][3] = {{5e-7, 5e-6, 5e-5}, {4e-7, 8e-7, 1.5e-6}};
-        return bias_scale * biases[kind == Kind::power ? 0 : 1][moments / 2 - 2];
+        const double biases[2][2][3] = {{{5e-7, 5e-6, 5e-5}, {4e-7, 8e-7, 1.5e-6}},
+                                        {{6e-5, 6e-4, 2.5e-3}, {4e-4, 6.5e-4, 8.5e-4}}};
+        return bias_scale * biases[is_half() ? 1 : 0][kind == Kind::power ? 0 : 1][moments / 2 - 2];
     }
+    bool is_half() const { return precision == Precision::float16; }
 };
 
 class Mboit : public TwoPassBlending {
@@ -83,9 +92,10 @@ class Mboit : public TwoPassBlending {
     }
 
     static std::vector<SumTexture> textures(const MboitParameters& parameters) {
+        const GLenum format = parameters.is_half() ? GL_RGBA16F : GL_RGBA32F;
         std::vector<SumTexture> all = {{.name = "absorbance", .format = GL_R32F},
-                                       {.name = "moments_0", .format = GL_RGBA32F}};
-        if (parameters.moments > 4) all.push_back({.name = "moments_1", .format = GL_RGBA32F});
+                                       {.name = "moments_0", .format = format}};
+        if (parameters.moments > 4) all.push_back({.name = "moments_1", .format = format});
         return all;
     }
 };
@@ -109,13 +119,14 @@ MethodInfo method_mboit() {
             .bad_at =
                 "Where moments do not suffice, layers show through each other, and with overestimation above 0 through "
                 "opaque ones; the second pass computes much for each fragment.",
-            .memory = "40 bytes per pixel, 56 with 6 or 8 moments",
+            .memory = "40 bytes per pixel, 56 with 6 or 8 moments; 8 and 16 fewer with float16",
             .passes = "2, and a full-screen one",
             .needs = "float targets with blending",
             .needs_sorting = false,
         },
         MboitParameters::table(), make_new<Mboit>, [](const MboitParameters& parameters, int) -> std::optional<double> {
-            return parameters.moments > 4 ? 56 : 40;
+            const int textures = parameters.moments > 4 ? 2 : 1;
+            return 24 + textures * (parameters.is_half() ? 8 : 16);
         });
 }
 

@@ -119,10 +119,15 @@ Real transmittance_before(Real depth, const Numbers& sums, const MomentParameter
 MomentParameters moment_parameters(const nlohmann::json& parameters) {
     const auto moments = parameters.value("moments", std::size_t{4});
     const bool is_power = parameters.value("kind", "power") == "power";
-    const Real biases[2][3] = {{4e-7L, 8e-7L, 1.5e-6L}, {5e-7L, 5e-6L, 5e-5L}};
-    return {is_power, moments, parameters.value("overestimation", 0.25),
-            biases[is_power ? 1 : 0][moments / 2 - 2] * parameters.value("bias_scale", 1.0),
-            parameters.value("greatest_absorbance", 10.0)};
+    const bool is_half = parameters.value("precision", "float32") == "float16";
+    const Real biases[2][2][3] = {{{4e-7L, 8e-7L, 1.5e-6L}, {5e-7L, 5e-6L, 5e-5L}},
+                                  {{4e-4L, 6.5e-4L, 8.5e-4L}, {6e-5L, 6e-4L, 2.5e-3L}}};
+    return {is_power,
+            moments,
+            parameters.value("overestimation", 0.25),
+            biases[is_half ? 1 : 0][is_power ? 1 : 0][moments / 2 - 2] * parameters.value("bias_scale", 1.0),
+            parameters.value("greatest_absorbance", 10.0),
+            is_half};
 }
 
 Numbers moment_sums(const Stack& stack, const MomentParameters& of) {

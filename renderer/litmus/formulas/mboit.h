@@ -20,6 +20,7 @@ struct MomentParameters {
     std::size_t moments;
     Real overestimation, bias;
     double greatest;
+    bool is_half;  ///< summed in half floats, whose rounding the formula does not have
 
     std::size_t half() const { return moments / 2; }
     /// Moments of the place in the complex plane: the depth from -1 to 1, or a point of the unit circle.
