@@ -84,7 +84,7 @@ class Sheet {
         const int height = label_px + gap_px + m_rows * (size_px + gap_px);
         return fmt::format(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-            "font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\">\n<rect width=\"{0}\" height=\"{1}\" "
+            "font-family=\"sans-serif\" font-size=\"11\" fill=\"#222\">\n<rect width=\"{0}\" height=\"{1}\" "
             "fill=\"#fff\"/>\n{2}</svg>\n",
             width, height, m_body);
     }
