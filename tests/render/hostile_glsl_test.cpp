@@ -77,7 +77,7 @@ constexpr Piece pieces[] = {
     {Meant::refused, "}"},
     {Meant::refused, "float NAME[4097];"},
     {Meant::refused, "vec4 NAME[1025];"},
-    {Meant::refused, "float NAME[N * 1000];"},
+    {Meant::refused, "float NAME[9 * 1000];"},
     {Meant::refused,
      "float NAME[4000]; float a_NAME[4000]; float b_NAME[4000]; float c_NAME[4000]; float d_NAME[4000];"},
     {Meant::refused, "int NAME = gl_SampleID;"},
