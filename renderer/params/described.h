@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -248,6 +249,69 @@ struct TextOrNull {
     static nlohmann::json schema(SchemaBook&) { return {{"type", {"string", "null"}}}; }
 };
 
+/// A value that is there, and never null.
+template <typename M>
+struct Present {
+    static nlohmann::json write(const std::optional<M>& value) { return Codec<M>::write(*value); }
+    static void read(const nlohmann::json& from, std::optional<M>& to) { Codec<std::optional<M>>::read(from, to); }
+    static nlohmann::json schema(SchemaBook& book) { return Codec<M>::schema(book); }
+};
+
+template <typename M>
+struct ValueOf {
+    static nlohmann::json write(const OrReason<M>& from) { return Codec<std::optional<M>>::write(from.value); }
+    static void read(const nlohmann::json& from, OrReason<M>& to) { Codec<std::optional<M>>::read(from, to.value); }
+    static nlohmann::json schema(SchemaBook& book) { return Codec<std::optional<M>>::schema(book); }
+};
+
+template <typename M>
+struct ReasonOf {
+    static nlohmann::json write(const OrReason<M>& from) { return from.reason; }
+    static void read(const nlohmann::json& from, OrReason<M>& to) { TextOrNull::read(from, to.reason); }
+    static nlohmann::json schema(SchemaBook&) { return {{"type", "string"}}; }
+};
+
+/// How a member of a struct is written, read, and described, for code that does not know its type.
+struct AnyCodec {
+    nlohmann::json (*write)(const void* member);
+    void (*read)(const nlohmann::json& from, void* member);
+    nlohmann::json (*schema)(SchemaBook& book);
+};
+
+template <typename M, typename Codec>
+constexpr AnyCodec any_codec = {
+    [](const void* from) -> nlohmann::json { return Codec::write(*static_cast<const M*>(from)); },
+    [](const nlohmann::json& from, void* to) { Codec::read(from, *static_cast<M*>(to)); }, &Codec::schema};
+
+/// The members of a struct, for code that does not know it. Not a template, since one that is made for each member of
+/// each struct takes minutes to compile.
+class MemberList {
+  public:
+    /// A member that is `offset_bytes` within the struct, and left out where `absent` says so.
+    void add(std::string_view name, std::string_view text, std::size_t offset_bytes, const AnyCodec& codec,
+             bool (*absent)(const void* member) = nullptr);
+    /// A member that is JSON.
+    void add(std::string_view name, std::string_view text, std::size_t offset_bytes,
+             const std::function<nlohmann::json(SchemaBook&)>& schema);
+    /// The members of a base struct.
+    void add(const MemberList& base, std::size_t offset_bytes);
+
+    nlohmann::json write(const void* object) const;
+    /// Throws DocumentError.
+    void read(const nlohmann::json& from, void* object) const;
+    nlohmann::json schema(SchemaBook& book, const std::string& text) const;
+
+  private:
+    struct Member {
+        std::string name, text;
+        std::size_t offset_bytes;
+        AnyCodec codec;
+        bool (*absent)(const void* member);  ///< null: never
+        std::function<nlohmann::json(SchemaBook&)> schema;
+    };
+    std::vector<Member> m_members;
+};
+
 }  // namespace detail
 
 /// The members of a struct `T` in its JSON object: the writer, the reader, the JSON schema and the docs are made from
@@ -257,142 +321,81 @@ template <typename T>
 class Description {
   public:
     /// `name` is the schema's name, `text` says what the object is.
-    Description(std::string name, std::string text) : m_name(std::move(name)), m_text(std::move(text)) {}
+    Description(std::string_view name, std::string_view text) : m_name(name), m_text(text) {}
 
     /// Always present. An std::optional without a value is null.
     template <typename M, typename Base>
-    requires std::derived_from<T, Base> Description& member(M Base::*member, const std::string& name,
-                                                            const std::string& text) {
-        return add<false, M, detail::Codec<M>>(member, name, text);
+    requires std::derived_from<T, Base> Description& member(M Base::*member, std::string_view name,
+                                                            std::string_view text) {
+        return add<M, detail::Codec<M>>(offset_of(member), name, text);
     }
     /// Absent if it equals `M{}`: "", 0, [].
     template <typename M>
-    Description& maybe(M T::*member, const std::string& name, const std::string& text) {
-        return add<true, M, detail::Codec<M>>(member, name, text);
+    Description& maybe(M T::*member, std::string_view name, std::string_view text) {
+        return add<M, detail::Codec<M>>(offset_of(member), name, text,
+                                        [](const void* of) { return *static_cast<const M*>(of) == M{}; });
     }
     /// Absent if there is no value, and never null.
     template <typename M>
-    Description& maybe(std::optional<M> T::*member, const std::string& name, const std::string& text) {
-        m_members.push_back({[=](const T& from, nlohmann::json& to) {
-                                 if (from.*member) to[name] = detail::Codec<M>::write(*(from.*member));
-                             },
-                             [=](const nlohmann::json& from, T& to) {
-                                 if (const auto found = from.find(name); found != from.end())
-                                     detail::read_below(
-                                         name, [&] { detail::Codec<std::optional<M>>::read(*found, to.*member); });
-                             },
-                             [=](SchemaBook& book, nlohmann::json& schema) {
-                                 set_property(schema, name, detail::Codec<M>::schema(book), text);
-                             }});
-        return *this;
+    Description& maybe(std::optional<M> T::*member, std::string_view name, std::string_view text) {
+        return add<std::optional<M>, detail::Present<M>>(
+            offset_of(member), name, text, [](const void* of) { return !*static_cast<const std::optional<M>*>(of); });
     }
     /// "" is null.
-    Description& text_or_null(std::string T::*member, const std::string& name, const std::string& text) {
-        return add<false, std::string, detail::TextOrNull>(member, name, text);
+    Description& text_or_null(std::string T::*member, std::string_view name, std::string_view text) {
+        return add<std::string, detail::TextOrNull>(offset_of(member), name, text);
     }
     /// `<name>` and `<name>_reason`.
     template <typename M>
-    Description& member(OrReason<M> T::*member, const std::string& name, const std::string& text) {
-        using Value = detail::Codec<std::optional<M>>;
-        const std::string reason = name + "_reason";
-        m_members.push_back({[=](const T& from, nlohmann::json& to) {
-                                 to[name] = Value::write((from.*member).value);
-                                 if (!(from.*member) && !(from.*member).reason.empty())
-                                     to[reason] = (from.*member).reason;
-                             },
-                             [=](const nlohmann::json& from, T& to) {
-                                 if (const auto found = from.find(name); found != from.end())
-                                     detail::read_below(name, [&] { Value::read(*found, (to.*member).value); });
-                                 if (const auto found = from.find(reason); found != from.end())
-                                     detail::read_below(reason,
-                                                        [&] { detail::TextOrNull::read(*found, (to.*member).reason); });
-                             },
-                             [=](SchemaBook& book, nlohmann::json& schema) {
-                                 set_property(schema, name, Value::schema(book), text);
-                                 schema["required"].push_back(name);
-                                 set_property(schema, reason, {{"type", "string"}}, "why " + name + " is null");
-                             }});
-        return *this;
+    Description& member(OrReason<M> T::*member, std::string_view name, std::string_view text) {
+        add<OrReason<M>, detail::ValueOf<M>>(offset_of(member), name, text);
+        return add<OrReason<M>, detail::ReasonOf<M>>(offset_of(member), std::string(name) + "_reason",
+                                                     "why " + std::string(name) + " is null", [](const void* of) {
+                                                         const auto& either = *static_cast<const OrReason<M>*>(of);
+                                                         return either || either.reason.empty();
+                                                     });
     }
     /// Arbitrary JSON; `schema` describes it.
-    Description& json(nlohmann::json T::*member, const std::string& name, const std::string& text,
+    Description& json(nlohmann::json T::*member, std::string_view name, std::string_view text,
                       const std::function<nlohmann::json(SchemaBook&)>& schema) {
-        m_members.push_back({[=](const T& from, nlohmann::json& to) { to[name] = from.*member; },
-                             [=](const nlohmann::json& from, T& to) {
-                                 if (const auto found = from.find(name); found != from.end()) to.*member = *found;
-                             },
-                             [=](SchemaBook& book, nlohmann::json& to) {
-                                 set_property(to, name, schema(book), text);
-                                 to["required"].push_back(name);
-                             }});
+        m_members.add(name, text, offset_of(member), schema);
         return *this;
     }
     /// All members of a base struct of `T`.
     template <typename Base>
     requires std::derived_from<T, Base> Description& with(const Description<Base>& base) {
-        for (const auto& one : base.m_members) m_members.push_back({one.write, one.read, one.describe});
+        m_members.add(base.m_members, bytes_between(&m_sample, static_cast<const Base*>(&m_sample)));
         return *this;
     }
 
     const std::string& name() const { return m_name; }
 
-    nlohmann::json write(const T& value) const {
-        nlohmann::json object = nlohmann::json::object();
-        for (const Member& member : m_members) member.write(value, object);
-        return object;
-    }
+    nlohmann::json write(const T& value) const { return m_members.write(&value); }
     /// Throws DocumentError.
-    void read(const nlohmann::json& from, T& to) const {
-        if (!from.is_object()) detail::throw_wrong_type("an object", from);
-        for (const Member& member : m_members) member.read(from, to);
-    }
-    nlohmann::json schema(SchemaBook& book) const {
-        nlohmann::json schema = {{"type", "object"},
-                                 {"description", m_text},
-                                 {"properties", nlohmann::json::object()},
-                                 {"required", nlohmann::json::array()},
-                                 {"additionalProperties", false}};
-        for (const Member& member : m_members) member.describe(book, schema);
-        return schema;
-    }
+    void read(const nlohmann::json& from, T& to) const { m_members.read(from, &to); }
+    nlohmann::json schema(SchemaBook& book) const { return m_members.schema(book, m_text); }
 
   private:
     template <typename Other>
     friend class Description;
 
-    struct Member {
-        std::function<void(const T&, nlohmann::json&)> write;
-        std::function<void(const nlohmann::json&, T&)> read;
-        std::function<void(SchemaBook&, nlohmann::json&)> describe;
-    };
-
-    static void set_property(nlohmann::json& schema, const std::string& name, nlohmann::json of_value,
-                             const std::string& text) {
-        if (!text.empty()) of_value["description"] = text;
-        schema["properties"][name] = std::move(of_value);
+    static std::size_t bytes_between(const void* begin, const void* end) {
+        return static_cast<std::size_t>(static_cast<const char*>(end) - static_cast<const char*>(begin));
     }
-
-    template <bool may_be_absent, typename M, typename Codec>
-    Description& add(M T::*member, const std::string& name, const std::string& text) {
-        m_members.push_back({[=](const T& from, nlohmann::json& to) {
-                                 if constexpr (may_be_absent)
-                                     if (from.*member == M{}) return;
-                                 to[name] = Codec::write(from.*member);
-                             },
-                             [=](const nlohmann::json& from, T& to) {
-                                 const auto found = from.find(name);
-                                 if (found == from.end()) return;
-                                 detail::read_below(name, [&] { Codec::read(*found, to.*member); });
-                             },
-                             [=](SchemaBook& book, nlohmann::json& schema) {
-                                 set_property(schema, name, Codec::schema(book), text);
-                                 if (!may_be_absent) schema["required"].push_back(name);
-                             }});
+    template <typename M, typename Base>
+    std::size_t offset_of(M Base::*member) const {
+        return bytes_between(&m_sample, &(m_sample.*member));
+    }
+    template <typename M, typename Codec>
+    Description& add(std::size_t offset_bytes, std::string_view name, std::string_view text,
+                     bool (*absent)(const void*) = nullptr) {
+        m_members.add(name, text, offset_bytes, detail::any_codec<M, Codec>, absent);
         return *this;
     }
 
     std::string m_name, m_text;
-    std::vector<Member> m_members;
+    T m_sample{};  ///< shows where the members are in a `T`
+    detail::MemberList m_members;
 };
 
 template <typename T>
