@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "renderer/litmus/scenes.h"
+#include "tests/render/early_exit.h"
 #include "tests/render/litmus_drawing.h"
 #include "tests/render/litmus_page.h"
 #include "tests/render/litmus_pairs.h"
@@ -180,8 +181,9 @@ TEST(LitmusTable, HasEveryMethodOnEveryScene) {
 /// `./dev docs` sets SHEER_WRITE_DOCS, which rewrites it.
 TEST(LitmusTable, IsWhatTheDocsSay) {
     const std::string path = source_folder() + std::string("/docs/litmus.md");
-    const std::string page =
-        litmus_page(litmus_scene_infos(), all_method_rows()) + pairs_section(compare_formulas(all_method_rows()));
+    const std::string page = litmus_page(litmus_scene_infos(), all_method_rows()) +
+                             early_exit_section(all_method_rows()) +
+                             pairs_section(compare_formulas(all_method_rows()));
     if (std::getenv("SHEER_WRITE_DOCS") != nullptr) std::ofstream(path) << page;
     std::stringstream text;
     text << std::ifstream(path).rdbuf();

@@ -29,6 +29,15 @@ struct LitmusEntry {
     std::vector<LitmusExpectation> expectations;  ///< each scene exactly once
 };
 
+/// What a method that stops early shades in each of early_exit_scenes() (tests/render/early_exit.h).
+struct EarlyExit {
+    nlohmann::json parameters = nlohmann::json::object();
+    /// By scene: fragments that it shades for each needed one, at most, on a device that draws one primitive after the
+    /// other.
+    std::vector<double> most_shaded;
+    std::string why;
+};
+
 /// Everything that the tests of all methods need to know about one: tests/render/methods/<id>.cpp, which ends with
 /// `MethodRow row_<id>()`.
 struct MethodRow {
@@ -42,7 +51,8 @@ struct MethodRow {
     bool weighs_depths = false;  ///< its picture depends on the depths of fragments, not only on their order
     std::vector<MethodVariant> variants;
     std::vector<LitmusEntry> litmus;
-    double litmus_tolerance = 64e-5;  ///< of colors, from the formula: the roundings of 64 layers in 32-bit floats
+    std::vector<EarlyExit> early_exit;  ///< of a method with a saturation_parameter and a picture
+    double litmus_tolerance = 64e-5;    ///< of colors, from the formula: the roundings of 64 layers in 32-bit floats
 };
 
 /// Every row, from the generated table.

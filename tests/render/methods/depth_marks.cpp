@@ -28,6 +28,10 @@ MethodRow row_depth_marks() {
                {{"glass", "leaves"},
                 fails,
                 "a primitive is drawn whole, so one side of the cut has the wrong order"}}}},
+        .early_exit = {{nlohmann::json::object(),
+                        {1, 16, 4, 1, 1},
+                        "a pixel is marked after every 16 primitives, which are 16 layers, or four that are made of "
+                        "four rectangles each"}},
         .litmus_tolerance = 0.01,
     };
 }

@@ -31,6 +31,14 @@ MethodRow row_f2bh() {
                {{"glass", "leaves"},
                 fails,
                 "a primitive is drawn whole, so one side of the cut has the wrong order"}}}},
+        .early_exit =
+            {{nlohmann::json::object(),
+              {1, 1, 1, 1, 1},
+              "within a batch each fragment reads what is left at its pixel"},
+             {{{"within_batch", "nothing"}, {"first_batch", 8}, {"growth", 1}},
+              {1, 8, 2, 1, 1.05},
+              "up to eight primitives are drawn over a pixel before it is closed: eight layers, or two that are "
+              "made of four rectangles each"}},
         .litmus_tolerance = 0.01,
     };
 }
