@@ -1,23 +1,31 @@
-// The choice of a published table to repeat, at the original size or smaller.
+// The choice of a suite, a published table to repeat or a measurement of ours, at the original size or smaller.
 import { el, select } from "./dom.js";
 
 const SCALES = [
-  ["1", "as published"],
+  ["1", "in full"],
   ["0.5", "1/2"],
   ["0.25", "1/4"],
   ["0.125", "1/8"],
 ];
 
-/** A suite's spec with the sides of its image times `scale`; scene, textures and so overdraw stay the same. */
+/**
+ * A suite's spec with the sides of its image, also those of its sweep, times `scale`; scene, textures and so overdraw stay
+ * the same.
+ */
 export function scaled_spec(spec, scale) {
   const side = (length) => Math.max(1, Math.round(length * scale));
-  return { ...spec, image: { ...spec.image, width: side(spec.image.width), height: side(spec.image.height) } };
+  const scaled = ([field, value]) => [field, /^\/image\/(width|height)$/.test(field) ? side(value) : value];
+  const sweep = spec.sweep?.map((axis) =>
+    axis.points ? { points: axis.points.map((point) => Object.fromEntries(Object.entries(point).map(scaled))) } : axis,
+  );
+  const image = { ...spec.image, width: side(spec.image.width), height: side(spec.image.height) };
+  return { ...spec, image, ...(sweep && { sweep }) };
 }
 
 /** Null if the service has no suites. `on_spec(spec)` is called with the chosen spec. */
 export function suite_chooser(suites, on_spec) {
   if (suites.length === 0) return null;
-  const name = (suite) => `${suite.id.replace(/^paper-table-/, "Table ")}: ${suite.title}`;
+  const name = ({ id, title }) => (id.startsWith("paper-table-") ? `Table ${id.slice(12)}: ${title}` : title);
   const hint = el("p", { class: "hint", role: "status" });
   const chosen = () => suites.find((suite) => suite.id === table.value);
   const table = select(
@@ -29,13 +37,14 @@ export function suite_chooser(suites, on_spec) {
   const tell = () => {
     const { source, device, spec } = chosen();
     const { width, height } = scaled_spec(spec, Number(scale.value)).image;
-    hint.textContent = `${source}, measured on ${device}. Here at ${width} × ${height} px.`;
+    const where = device ? `, measured on ${device}` : "";
+    hint.textContent = `${source}${where}. Here at ${width} × ${height} px.`;
   };
   tell();
   return el(
     "div",
-    { class: "suite-row", role: "group", "aria-label": "Repeat a published table" },
-    el("label", {}, "Repeat a published table", table),
+    { class: "suite-row", role: "group", "aria-label": "Measure a suite" },
+    el("label", {}, "Measure a suite", table),
     el("label", {}, "Image", scale),
     el(
       "button",

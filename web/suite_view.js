@@ -89,7 +89,7 @@ function trend_item(trend) {
   );
 }
 
-/** Null if the report repeats no publication. `columns` describe what can be measured, `metrics` the differences. */
+/** Null if the report repeats no publication and measures nothing of our own. `columns` describe what can be measured, `metrics` the differences. */
 export function suite_section(report, { columns, metrics }) {
   const { suite } = report;
   if (!suite) return null;
@@ -101,15 +101,19 @@ export function suite_section(report, { columns, metrics }) {
       { class: "suite-text" },
       el("h2", {}, suite.title ?? "Published figures"),
       el("p", {}, suite.source),
-      el(
-        "p",
-        { class: "muted" },
-        `Published on ${suite.device}; measured on ${report.device?.renderer ?? "this device"}.`,
-      ),
+      suite.device
+        ? el(
+            "p",
+            { class: "muted" },
+            `Published on ${suite.device}; measured on ${report.device?.renderer ?? "this device"}.`,
+          )
+        : null,
       suite.trends?.length > 0
         ? el("ul", { class: "trends", "aria-label": "Trends" }, suite.trends.map(trend_item))
         : null,
     ),
-    figures_table(suite.figures ?? [], report.spec, [...columns, ...difference_columns(metrics)]),
+    suite.figures?.length > 0
+      ? figures_table(suite.figures, report.spec, [...columns, ...difference_columns(metrics)])
+      : null,
   );
 }

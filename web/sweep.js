@@ -68,7 +68,7 @@ function values_at(point, pointers, index) {
 }
 
 /**
- * The axes of `spec.sweep`: {name, field, points, stops}. `points` are objects of values by pointer; each stop is
+ * The axes of `spec.sweep`: {name, field, fields, points, stops}. `points` are objects of values by pointer; each stop is
  * {value, text}; `value` is the value of the field, `field` its pointer; both are undefined if points set several.
  */
 export function axes_of(spec) {
@@ -89,17 +89,20 @@ export function axes_of(spec) {
               .join(", "),
           };
     const name = named.map(([one]) => one).join(", ");
-    return { name, field: single ? fields[0] : undefined, points, stops: points.map(stop) };
+    return { name, field: single ? fields[0] : undefined, fields, points, stops: points.map(stop) };
   });
 }
 
 /**
- * How the times of the methods grow along an axis of one field, where the run is on the others: the report's entries for
- * that field and the rest of the run's point.
+ * How the times of the methods (metric "timing.median") or their memory ("memory_bytes") grow along an axis, where the run
+ * is on the others: the report's entries for a field of the axis and the rest of the run's point.
  */
-export function growth_along(report, axis, run) {
-  const { [axis.field]: _, ...rest } = run.point;
-  return (report.growth ?? []).filter(({ pointer, at }) => pointer === axis.field && is_same_point(at, rest));
+export function growth_along(report, axis, run, wanted) {
+  const rest = Object.fromEntries(Object.entries(run.point).filter(([field]) => !axis.fields.includes(field)));
+  return (report.growth ?? []).filter(
+    ({ pointer, at, metric = "timing.median" }) =>
+      metric === wanted && axis.fields.includes(pointer) && is_same_point(at, rest),
+  );
 }
 
 /** For each axis the index of the stop of a run's point, −1 if there is none. */

@@ -153,13 +153,17 @@ export class SweepView {
     });
   }
 
-  /** How the times grow along the axis, where its values are numbers. */
+  /** How times and memory grow along the axis, where its values are numbers. */
   #show_growth(axis, run) {
-    const known = run ? growth_along(this.#report, axis, run) : [];
     const text = ({ method, exponent, ci95 }) =>
       `${method} ${fixed(exponent, 2)} [${ci95.map((end) => fixed(end, 2)).join(", ")}]`;
-    this.#growth.hidden = known.length === 0;
-    this.#growth.textContent = `Time grows with the power of ${axis.name}: ${known.map(text).join(", ")}.`;
+    const sentence = (metric, what) => {
+      const known = run ? growth_along(this.#report, axis, run, metric) : [];
+      const told = metric === "timing.median" ? known : known.filter(({ exponent }) => Math.abs(exponent) >= 0.005);
+      return told.length === 0 ? "" : `${what} grows with the power of ${axis.name}: ${told.map(text).join(", ")}. `;
+    };
+    this.#growth.textContent = sentence("timing.median", "Time") + sentence("memory_bytes", "Memory");
+    this.#growth.hidden = this.#growth.textContent === "";
   }
 
   /** Shows a run of the report. */

@@ -18,7 +18,7 @@ double mean(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// The times of one method along a field, at each combination of the other fields' values.
+/// The values of one method along an axis, at each combination of the other fields' values.
 struct Series {
     report::Point at;
     std::string method;
@@ -32,14 +32,40 @@ void add_to(std::vector<Series>& all, const report::Point& at, const std::string
     series->points.push_back(point);
 }
 
-std::vector<Series> series_along(const std::string& pointer, const std::vector<report::Run>& runs) {
+bool all_numbers(const nlohmann::json& values) {
+    return std::ranges::all_of(values, [](const nlohmann::json& value) { return value.is_number(); });
+}
+
+/// The fields that the axis sets; none if it sets one to anything but numbers.
+std::vector<std::string> number_fields_of(const nlohmann::json& axis) {
+    std::set<std::string> fields;
+    const nlohmann::json points = axis.value("points", nlohmann::json::array());
+    for (const auto& point : points)
+        for (const auto& [pointer, value] : point.items()) {
+            if (!value.is_number()) return {};
+            fields.insert(pointer);
+        }
+    if (points.empty() && all_numbers(axis.at("values"))) fields.insert(axis.at("pointer").get<std::string>());
+    return {fields.begin(), fields.end()};
+}
+
+constexpr const char* measured_metrics[] = {"timing.median", "memory_bytes"};
+
+std::optional<double> value_of(const std::string& metric, const report::Result& result) {
+    if (metric == "timing.median") return result.timing ? std::optional(result.timing->median) : std::nullopt;
+    return result.memory_bytes ? std::optional(static_cast<double>(*result.memory_bytes)) : std::nullopt;
+}
+
+std::vector<Series> series_along(const std::vector<std::string>& fields, const std::string& metric,
+                                 const std::vector<report::Run>& runs) {
     std::vector<Series> all;
     for (const report::Run& run : runs) {
-        if (!run.point.contains(pointer) || !run.point[pointer].is_number()) continue;
+        if (!run.point.contains(fields.front())) continue;
         report::Point at = run.point;
-        at.erase(pointer);
+        for (const std::string& field : fields) at.erase(field);
         for (const report::Result& result : run.results)
-            if (result.timing) add_to(all, at, result.label, {run.point[pointer], result.timing->median});
+            if (const auto value = value_of(metric, result))
+                add_to(all, at, result.label, {run.point[fields.front()], *value});
     }
     return all;
 }
@@ -81,16 +107,17 @@ std::optional<PowerLaw> fit_power_law(const Points& points) {
     return PowerLaw{slope, {slope - half, slope + half}};
 }
 
-std::vector<Growth> growth_of(const std::vector<report::Run>& runs) {
-    std::set<std::string> pointers;
-    for (const report::Run& run : runs)
-        for (const auto& [pointer, value] : run.point.items()) pointers.insert(pointer);
+std::vector<Growth> growth_of(const nlohmann::json& sweep, const std::vector<report::Run>& runs) {
     std::vector<Growth> all;
-    for (const std::string& pointer : pointers)
-        for (const Series& series : series_along(pointer, runs))
-            if (const auto law = fit_power_law(series.points))
-                all.push_back({pointer, series.at, series.method, law->exponent,
-                               report::Interval{law->ci95.first, law->ci95.second}, series.points.size()});
+    for (const nlohmann::json& axis : sweep) {
+        const std::vector<std::string> fields = number_fields_of(axis);
+        if (fields.empty()) continue;
+        for (const char* metric : measured_metrics)
+            for (const Series& series : series_along(fields, metric, runs))
+                if (const auto law = fit_power_law(series.points))
+                    all.push_back({metric, fields.front(), series.at, series.method, law->exponent,
+                                   report::Interval{law->ci95.first, law->ci95.second}, series.points.size()});
+    }
     return all;
 }
 

@@ -20,7 +20,8 @@ std::optional<PowerLaw> fit_power_law(const std::vector<std::pair<double, double
 /// Student's t with `degrees` of freedom, at least 1, is beyond +- this with a probability of 5 %.
 double student_t95(std::size_t degrees);
 
-/// How the median times grow along each field that the sweep sets to numbers.
-std::vector<report::Growth> growth_of(const std::vector<report::Run>& runs);
+/// How the median times and the memory of the methods grow along each axis of `sweep`, a spec's, that sets numbers. If
+/// an axis sets several fields together, the first one stands for it.
+std::vector<report::Growth> growth_of(const nlohmann::json& sweep, const std::vector<report::Run>& runs);
 
 }  // namespace sheer

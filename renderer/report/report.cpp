@@ -410,7 +410,7 @@ UndecidedFunction ReportMaker::undecided() const {
 
 Report ReportMaker::finish() {
     if (const Suite* suite = find_suite(m_spec.suite)) m_report.suite = suite_report(*suite, m_report.runs);
-    m_report.growth = growth_of(m_report.runs);
+    m_report.growth = growth_of(m_report.spec.value("sweep", json::array()), m_report.runs);
     m_report.checks = check_all(m_spec.checks, m_report.runs);
     judge(m_report);
     collect(m_report);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <vector>
 
 #include "renderer/report/text_table.h"
@@ -51,18 +52,28 @@ std::string sentence(const Report& report, const std::string& label) {
     return fmt::format("{} is {}.\n", label, both.empty() ? "not resolved to be faster or slower at any point" : both);
 }
 
-/// "At size 64, time grows as count^p with p = 0.98 [0.91, 1.05] for b2f, ..." for each field and the rest of the
+/// Memory that does not grow is not worth a word.
+bool is_told(const report::Growth& growth) {
+    return growth.metric == "timing.median" || std::abs(growth.exponent) >= 0.005;
+}
+
+/// "At size 64, time grows as count^p, p = 0.98 [0.91, 1.05] for b2f, ..." for each metric, field and rest of the
 /// point.
 std::string growth_text(const Report& report) {
     std::string text;
     const report::Growth* before = nullptr;
     for (const report::Growth& growth : report.growth) {
-        const bool continues = before && before->pointer == growth.pointer && before->at == growth.at;
+        if (!is_told(growth)) continue;
+        const bool continues =
+            before && before->metric == growth.metric && before->pointer == growth.pointer && before->at == growth.at;
         const std::string field = describe_point({{growth.pointer, 0}});
         const std::string at = describe_point(growth.at);
+        const bool time = growth.metric == "timing.median";
         if (!continues)
-            text += fmt::format("{}{}ime grows as {}^p, p = ", before ? ".\n" : "",
-                                at.empty() ? "T" : "At " + at + ", t", field.substr(0, field.rfind(' ')));
+            text += fmt::format(
+                "{}{} grows as {}^p, p = ", before ? ".\n" : "",
+                at.empty() ? (time ? "Time" : "Memory") : fmt::format("At {}, {}", at, time ? "time" : "memory"),
+                field.substr(0, field.rfind(' ')));
         text += fmt::format("{}{:.2f} [{:.2f}, {:.2f}] for {}", continues ? ", " : "", growth.exponent, growth.ci95[0],
                             growth.ci95[1], growth.method);
         before = &growth;

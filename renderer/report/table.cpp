@@ -166,6 +166,7 @@ std::string published_text(const nlohmann::json& published) {
 std::string suite_text(const report::Suite& suite) {
     std::vector<Row> rows = {{"at", "method", "metric", "published", "measured"}};
     for (const report::Figure& figure : suite.figures)
+    if (suite.figures.empty()) return fmt::format("\n{}\n", suite.source);
         rows.push_back({describe_point(figure.at), figure.method, figure.metric, published_text(figure.published),
                         figure.measured ? number_text(*figure.measured) : "-"});
     std::string text =

@@ -173,12 +173,16 @@ const Description<report::Run>& description_of() {
 template <>
 const Description<report::Growth>& description_of() {
     static const auto description =
-        Description<report::Growth>("Growth", "how the median time of a method grows along a field of the sweep")
-            .member(&report::Growth::pointer, "pointer", "of the field, which is a number above 0 at these points")
+        Description<report::Growth>("Growth", "how a method's median time or memory grows along an axis of the sweep")
+            .member(&report::Growth::metric, "metric", "timing.median or memory_bytes")
+            .member(&report::Growth::pointer, "pointer",
+                    "of the field, which is a number above 0 at these points; the first one if the axis sets "
+                    "several together")
             .json(&report::Growth::at, "at", "the values of the other fields of the sweep", point_schema)
             .member(&report::Growth::method, "method", "label")
             .member(&report::Growth::exponent, "exponent",
-                    "p of time = a x^p, by least squares of the logarithms: 1 if twice the value takes twice the time")
+                    "p of y = a x^p, by least squares of the logarithms: 1 if twice the value takes twice the time or "
+                    "memory")
             .member(&report::Growth::ci95, "ci95",
                     "its 95 % interval by Student's t, from how far the points lie from the line")
             .member(&report::Growth::points, "points", "number of points, at least 3");
@@ -401,7 +405,7 @@ const Description<report::Report>& description_of() {
             .member(&report::Report::qualification, "qualification",
                     "the device's last qualification before this report; null if there was none: `sheer qualify`")
             .member(&report::Report::runs, "runs", "one for each point of the sweep")
-            .member(&report::Report::growth, "growth", "for each field of the sweep and method with enough points")
+            .member(&report::Report::growth, "growth", "for each axis of the sweep and method with enough points")
             .maybe(&report::Report::suite, "suite", "absent if the spec names no suite")
             .maybe(&report::Report::against, "against", "absent if the spec names nothing to compare with")
             .member(&report::Report::checks, "checks",

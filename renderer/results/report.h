@@ -201,6 +201,7 @@ struct Run {
 struct Growth {
     std::string pointer;
     Point at = nlohmann::json::object();
+    std::string metric = "timing.median";  ///< older reports do not say it
     std::string method;
     double exponent = 0;
     Interval ci95{0, 0};

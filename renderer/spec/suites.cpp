@@ -37,9 +37,15 @@ const Suite* find_suite(const std::string& id) {
 
 json suite_spec(const Suite& suite, double scale) {
     if (!(scale > 0 && scale <= 1)) throw std::invalid_argument("a scale must be over 0 and at most 1");
-    json spec = suite.spec;
-    for (const char* side : {"width", "height"})
-        spec["image"][side] = std::max(1.0, std::round(spec["image"][side].get<double>() * scale));
+    json spec = suite.spec, none = json::array();
+    const auto shrink = [&](json& side_px) { side_px = std::max(1.0, std::round(side_px.get<double>() * scale)); };
+    for (const char* side : {"width", "height"}) {
+        shrink(spec["image"][side]);
+        const std::string pointer = std::string("/image/") + side;
+        for (json& axis : spec["sweep"])
+            for (json& point : axis.value("points", json::array()).empty() ? none : axis["points"])
+                if (point.contains(pointer)) shrink(point[pointer]);
+    }
     return spec;
 }
 

@@ -47,6 +47,7 @@ report::Run run_at(const json& point, double b2f_ms, double f2b_ms) {
     for (const auto& [label, ms] : {std::pair("b2f", b2f_ms), std::pair("f2b", f2b_ms)}) {
         report::Result result{.method = label, .label = label};
         result.timing.emplace().median = ms;
+        result.memory_bytes = static_cast<std::int64_t>(1000 * b2f_ms * b2f_ms);
         run.results.push_back(result);
     }
     return run;
@@ -58,9 +59,15 @@ TEST(Growth, IsOfEachFieldAndMethodAtTheOthersValues) {
         for (const int count : {1, 2, 4})
             runs.push_back(run_at({{"/scene/count", count}, {"/scene/shading", "constant"}, {"/image/width", size}},
                                   size * count, 5.0 * count * count));
-    const std::vector<report::Growth> growth = growth_of(runs);
-    ASSERT_EQ(growth.size(), 4) << "two sizes are too few";
-    const auto& last = growth.back();
+    const json sweep = {{{"pointer", "/image/width"}, {"values", {10, 20}}},
+                        {{"pointer", "/scene/count"}, {"values", {1, 2, 4}}},
+                        {{"pointer", "/scene/shading"}, {"values", {"constant"}}}};
+    const std::vector<report::Growth> growth = growth_of(sweep, runs);
+    ASSERT_EQ(growth.size(), 8) << "times and memory of two methods; two sizes are too few";
+    EXPECT_EQ(growth.back().metric, "memory_bytes");
+    EXPECT_NEAR(growth.back().exponent, 2, 1e-12);
+    const auto& last = growth[3];
+    EXPECT_EQ(last.metric, "timing.median");
     EXPECT_EQ(last.pointer, "/scene/count");
     EXPECT_EQ(last.at, (json{{"/scene/shading", "constant"}, {"/image/width", 20}}));
     EXPECT_EQ(last.method, "f2b");
@@ -69,15 +76,36 @@ TEST(Growth, IsOfEachFieldAndMethodAtTheOthersValues) {
     EXPECT_EQ(last.points, 3);
 }
 
+TEST(Growth, OfFieldsThatAreSetTogetherIsThatOfTheFirst) {
+    std::vector<report::Run> runs;
+    json points = json::array();
+    for (const int size : {256, 512, 1024}) {
+        points.push_back({{"/image/width", size}, {"/image/height", size}});
+        runs.push_back(run_at(points.back(), size * size, 7));
+    }
+    const std::vector<report::Growth> growth = growth_of(json::array({{{"points", points}}}), runs);
+    ASSERT_EQ(growth.size(), 4);
+    EXPECT_EQ(growth[0].pointer, "/image/height");
+    EXPECT_EQ(growth[0].at, json::object());
+    EXPECT_NEAR(growth[0].exponent, 2, 1e-12);
+    EXPECT_NEAR(growth[1].exponent, 0, 1e-12);
+    points[1]["/image/width"] = "wide";
+    EXPECT_TRUE(growth_of(json::array({{{"points", points}}}), runs).empty()) << "not all are numbers";
+}
+
 TEST(Growth, IsToldOnTheTerminal) {
     report::Report report;
     report.spec = {{"methods", json::array({{{"label", "b2f"}}})}};
-    report.growth = {{"/scene/count", {{"/image/width", 10}}, "b2f", 0.984, {0.91, 1.06}, 4},
-                     {"/scene/count", {{"/image/width", 10}}, "f2b", 1.5, {1.25, 1.75}, 4},
-                     {"/image/width", json::object(), "b2f", 2, {2, 2}, 3}};
+    const std::string time = "timing.median", memory = "memory_bytes";
+    report.growth = {{time, "/scene/count", {{"/image/width", 10}}, "b2f", 0.984, {0.91, 1.06}, 4},
+                     {time, "/scene/count", {{"/image/width", 10}}, "f2b", 1.5, {1.25, 1.75}, 4},
+                     {time, "/image/width", json::object(), "b2f", 2, {2, 2}, 3},
+                     {memory, "/image/width", json::object(), "b2f", 0, {0, 0}, 3},
+                     {memory, "/image/width", json::object(), "exact", 2, {2, 2}, 3}};
     EXPECT_EQ(sweep_table(report),
               "At width 10, time grows as count^p, p = 0.98 [0.91, 1.06] for b2f, 1.50 [1.25, 1.75] for f2b.\n"
-              "Time grows as width^p, p = 2.00 [2.00, 2.00] for b2f.\n");
+              "Time grows as width^p, p = 2.00 [2.00, 2.00] for b2f.\n"
+              "Memory grows as width^p, p = 2.00 [2.00, 2.00] for exact.\n");
 }
 
 }  // namespace

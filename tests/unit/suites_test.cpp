@@ -7,6 +7,7 @@
 
 #include "renderer/report/frontier.h"
 #include "renderer/report/statistics.h"
+#include "renderer/methods/shared/method.h"
 #include "renderer/report/suite.h"
 #include "renderer/results/quantity.h"
 #include "renderer/spec/spec.h"
@@ -77,12 +78,19 @@ bool has_method(const Spec& spec, const std::string& label) {
     return std::ranges::any_of(spec.methods, [&](const MethodSpec& method) { return method.label == label; });
 }
 
-TEST(Suites, AreTheSevenTablesOfThePaper) {
-    ASSERT_EQ(all_suites().size(), 7u);
+TEST(Suites, AreTheSevenTablesOfThePaperAndHowCostsGrow) {
+    std::size_t tables = 0;
     for (const Suite& one : all_suites()) {
         SCOPED_TRACE(one.id);
         const Spec spec = parse_spec(one.spec);
         EXPECT_EQ(spec.suite, one.id);
+        if (one.published.empty()) {
+            EXPECT_TRUE(one.id.starts_with("scaling-"));
+            EXPECT_GE(spec.points.size(), 4u);
+            for (const MethodInfo& method : all_methods()) EXPECT_TRUE(has_method(spec, method.id)) << method.id;
+            continue;
+        }
+        ++tables;
         EXPECT_EQ(spec.image.width_px, 512);
         for (const json& figure : one.published) {
             EXPECT_TRUE(has_point(spec, figure["at"])) << figure.dump();
@@ -93,6 +101,8 @@ TEST(Suites, AreTheSevenTablesOfThePaper) {
             for (const auto& method : judged["methods"])
                 EXPECT_TRUE(has_method(spec, method.get<std::string>())) << judged.dump();
     }
+    EXPECT_EQ(tables, 7u);
+    EXPECT_EQ(all_suites().size(), 10u);
 }
 
 TEST(Suites, HaveThePublishedFigures) {
@@ -112,6 +122,9 @@ TEST(Suites, ScaleOnlyThePicture) {
     EXPECT_EQ(spec.image.width_px, 128);
     EXPECT_EQ(spec.image.height_px, 128);
     EXPECT_EQ(spec.scene["texture"]["size"], 1024);
+    const Spec sizes = parse_spec(suite_spec(*find_suite("scaling-resolution"), 0.25));
+    EXPECT_EQ(sizes.image.width_px, 64);
+    EXPECT_EQ(sizes.points.back(), (json{{"/image/width", 1024}, {"/image/height", 1024}}));
     EXPECT_THROW(suite_spec(*find_suite("paper-table-4"), 0), std::invalid_argument);
     EXPECT_THROW(suite_spec(*find_suite("paper-table-4"), 1.5), std::invalid_argument);
 }

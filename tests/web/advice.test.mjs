@@ -181,15 +181,15 @@ test("the growth along an axis is that at the run's other values", () => {
     ],
   };
   const entry = (width, exponent) => ({ pointer: "/scene/count", at: { "/image/width": width }, exponent });
-  const report = { growth: [entry(8, 1), entry(16, 2), { pointer: "/image/width", at: {}, exponent: 3 }] };
+  const memory = { ...entry(16, 5), metric: "memory_bytes" };
+  const report = { growth: [entry(8, 1), entry(16, 2), { pointer: "/image/width", at: {}, exponent: 3 }, memory] };
   const [count, width] = axes_of(spec);
   const run = { point: { "/image/width": 16, "/scene/count": 4 } };
-  assert.deepEqual(
-    growth_along(report, count, run).map(({ exponent }) => exponent),
-    [2],
-  );
-  assert.deepEqual(growth_along(report, width, run), []);
-  assert.deepEqual(growth_along({}, count, run), []);
+  const exponents = (axis, metric) => growth_along(report, axis, run, metric).map(({ exponent }) => exponent);
+  assert.deepEqual(exponents(count, "timing.median"), [2]);
+  assert.deepEqual(exponents(count, "memory_bytes"), [5]);
+  assert.deepEqual(exponents(width, "timing.median"), []);
+  assert.deepEqual(growth_along({}, count, run, "timing.median"), []);
 });
 
 test("a swept program is named, not written out", () => {

@@ -150,8 +150,8 @@ page_test("errors in a sweep are shown at their fields", { expected_statuses: [4
 
 page_test("a published table is repeated and shown beside the published figures", {}, async (page) => {
   await page.goto(`${tests.url()}/#/new`);
-  const chooser = page.getByRole("group", { name: "Repeat a published table" });
-  await chooser.getByLabel("Repeat a published table").selectOption("paper-table-4");
+  const chooser = page.getByRole("group", { name: "Measure a suite" });
+  await chooser.getByLabel("Measure a suite").selectOption("paper-table-4");
   await chooser.getByLabel("Image").selectOption("0.125");
   await chooser.getByRole("button", { name: "Fill in" }).click();
   await page.getByText("The spec is valid.").waitFor();
