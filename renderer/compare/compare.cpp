@@ -68,6 +68,7 @@ void count_fragments(const Looks& looks, const Target& target, EarlyTests& early
             FragmentCounts& fragments = result.fragments;
             static_cast<ShadingCount&>(fragments) =
                 count_shaded(bench.gl(), scene, target, early_tests, [&] { bench.render(method, false); });
+            fragments.reads = scene.reads_of_fragment();
             count_needed_by(result.method, scene, target, needed, bench, run, fragments);
         });
 }

@@ -26,6 +26,7 @@ struct FragmentCounts : ShadingCount {
     std::string no_needed_reason;
     std::optional<PixelCounts>
         saturation;  ///< the fragment that saturated the pixel, from 1; of methods with a threshold
+    std::optional<int> reads;  ///< of textures by each shaded fragment
 };
 
 /// The picture of a method with its own look, compared with the same method's without it.

@@ -14,6 +14,9 @@ namespace {
 /// Drawing primitives separately costs two draws and their state for each.
 constexpr std::size_t most_single_draws = 100000;
 
+/// Comes after a method's source, whose main() count_shaded.glsl has renamed.
+constexpr const char* own_main = "\n#undef main\nvoid main() { counted_main(); }\n";
+
 /// The program as its author wrote it: without comments and without the lines that only count.
 std::string without_counting(const gl::Program& program) {
     std::string source = program.fragment_source();
@@ -123,7 +126,12 @@ class Sum {
 }  // namespace
 
 ShadingCounter::ShadingCounter(const gl::Functions& gl, Scene& scene, const Target& target)
-    : m_gl(gl), m_scene(scene), m_width_px(target.width_px()), m_height_px(target.height_px()) {
+    : m_gl(gl),
+      m_scene(scene),
+      m_width_px(target.width_px()),
+      m_height_px(target.height_px()),
+      m_warps(gl, scene, m_width_px, m_height_px),
+      m_counted(gl, "shaded before", m_width_px, m_height_px) {
     m_scene.observe(this);
 }
 
@@ -144,8 +152,8 @@ const ShadingCounter::Variants& ShadingCounter::variants_of(const gl::Program& p
     variants.shader.fetches_framebuffer = contains_any(source, {"shader_framebuffer_fetch"});
     const auto counting = [&](const std::string& layout) {
         const std::string rest = program.fragment_source().substr(std::string_view(glsl_version).size());
-        return program.with_fragment_source("shaded fragments",
-                                            glsl_version + ("#define SHEER_COUNT_SHADED " + layout + "\n") + rest);
+        return program.with_fragment_source(
+            "shaded fragments", glsl_version + ("#define SHEER_COUNT_SHADED " + layout + "\n") + rest + own_main);
     };
     variants.late = counting("");
     if (variants.specified == Specified::nowhere) variants.early = counting("layout(early_fragment_tests) in;");
@@ -159,10 +167,23 @@ ShadingCounter::Tally& ShadingCounter::tally_of(const Key& key) {
     return m_tallies.emplace(key, Tally{image(), image(), ""}).first->second;
 }
 
+void ShadingCounter::test_early(std::size_t window) {
+    m_early = true;
+    m_window = window;
+    m_warps.choose_window(window);
+}
+
 void ShadingCounter::prepare(const gl::Program& original, const gl::Program& variant, const CountImage& image) const {
     variant.copy_uniforms(original);
     variant.set("u_shaded_scale", scale_to(m_gl, image));
+    WarpCounter::count_nothing_in(variant);
     image.bind();
+}
+
+void ShadingCounter::prepare_early(const gl::Program& original, const gl::Program& variant,
+                                   const CountImage& image) const {
+    prepare(original, variant, m_window == 0 ? image : m_counted);
+    m_warps.count_in(variant);
 }
 
 void ShadingCounter::draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) {
@@ -173,7 +194,7 @@ void ShadingCounter::draw_transparent(const gl::Program& program, Order order, s
 void ShadingCounter::gather(const gl::Program& program) {
     const Variants& variants = variants_of(program);
     Tally& tally = tally_of({Specified::nowhere, DrawKind()});
-    prepare(program, variants.late, m_early ? tally.early : tally.late);
+    m_early ? prepare_early(program, variants.late, tally.early) : prepare(program, variants.late, tally.late);
     m_scene.gather_unobserved(variants.late);
 }
 
@@ -187,17 +208,24 @@ void ShadingCounter::draw_early(const gl::Program& program, Order order, std::si
     const Variants& variants = variants_of(program);
     const DrawKind kind = with_state(variants.shader, m_gl);
     Tally& tally = tally_of({variants.specified, kind});
-    const bool cuts_late = may_be_cut(kind), draws_twice = cuts_late && (kind.writes_depth || kind.writes_stencil());
+    m_warps.begin_draw(order, first, count);
     if (variants.specified == Specified::late)
         tally.no_early_reason = "the shader writes depth or memory, so its fragments are not tested before it has run";
-    else if (variants.specified == Specified::nowhere && cuts_late && query_runs(m_gl))
+    if (variants.specified != Specified::nowhere) {
+        prepare_early(program, variants.late, m_counted);
+        return m_scene.draw_unobserved(variants.late, order, first, count);
+    }
+    const bool cuts_late = may_be_cut(kind), draws_twice = cuts_late && (kind.writes_depth || kind.writes_stencil());
+    if (cuts_late && query_runs(m_gl))
         tally.no_early_reason = "the method asks how many samples pass, which counting would disturb";
-    else if (variants.specified == Specified::nowhere && draws_twice && count > most_single_draws)
+    else if (draws_twice && count > most_single_draws)
         tally.no_early_reason = fmt::format("counting would draw each of {} primitives separately; the limit is {}",
                                             count, most_single_draws);
-    if (variants.specified == Specified::early || !tally.no_early_reason.empty())
+    if (!tally.no_early_reason.empty()) {
+        m_no_warps_reason = tally.no_early_reason;
         return m_scene.draw_unobserved(program, order, first, count);
-    prepare(program, variants.early, tally.early);
+    }
+    prepare_early(program, variants.early, tally.early);
     if (draws_twice) {
         draw_twice(program, variants.early, order, first, count);
     } else {
@@ -216,7 +244,7 @@ void ShadingCounter::draw_twice(const gl::Program& program, const gl::Program& v
     }
 }
 
-ShadingCount ShadingCounter::read(EarlyTests& early_tests) const {
+ShadingCount ShadingCounter::read(EarlyTests& early_tests) {
     const PixelCounts none{m_width_px, m_height_px,
                            std::vector<std::uint32_t>(static_cast<std::size_t>(m_width_px) * m_height_px)};
     Sum shaded(none), visible(none);
@@ -249,6 +277,8 @@ ShadingCount ShadingCounter::read(EarlyTests& early_tests) const {
     }
     shaded.put_into(result.shaded, result.no_shaded_reason);
     visible.put_into(result.visible, result.no_visible_reason);
+    result.no_warps_reason = m_no_warps_reason.empty() ? m_warps.reason() : m_no_warps_reason;
+    if (result.no_warps_reason.empty()) result.warps = m_warps.read();
     if (result.shaded) result.shaded_by = probed ? "probed" : specified ? "specified" : "no_test_fails";
     return result;
 }
@@ -256,8 +286,9 @@ ShadingCount ShadingCounter::read(EarlyTests& early_tests) const {
 ShadingCount count_shaded(const gl::Functions& gl, Scene& scene, const Target& target, EarlyTests& early_tests,
                           const std::function<void()>& render_frame) {
     ShadingCounter counter(gl, scene, target);
-    for (const bool early : {false, true}) {
-        counter.test_early(early);
+    render_frame();
+    for (std::size_t window = 0; window < counter.windows(); ++window) {
+        counter.test_early(window);
         render_frame();
     }
     return counter.read(early_tests);

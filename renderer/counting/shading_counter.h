@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -6,6 +7,7 @@
 
 #include "renderer/counting/count_image.h"
 #include "renderer/counting/early_tests.h"
+#include "renderer/counting/warp_counter.h"
 #include "renderer/passes/target.h"
 
 namespace sheer {
@@ -21,6 +23,9 @@ struct ShadingCount {
     /// Of these, the fragments that the tests let through: what is shaded at least, on any device.
     std::optional<PixelCounts> visible;
     std::string no_visible_reason;
+    /// On a device that tests early where it may.
+    std::optional<WarpCounts> warps;
+    std::string no_warps_reason;
 };
 
 /// Counts how often a method shades a transparent fragment; the method needs no code for it.
@@ -42,13 +47,14 @@ class ShadingCounter : public DrawObserver {
     ShadingCounter(const ShadingCounter&) = delete;
     ShadingCounter& operator=(const ShadingCounter&) = delete;
 
-    /// Chooses the tests for the frames that follow; late ones at first. Frames must be drawn with both before read().
-    void test_early(bool early) { m_early = early; }
+    /// Frames are drawn with late tests at first. Then one must be drawn with early tests for each window, in order.
+    std::size_t windows() const { return std::max<std::size_t>(m_warps.windows(), 1); }
+    void test_early(std::size_t window);
     void draw_transparent(const gl::Program& program, Order order, std::size_t first, std::size_t count) override;
     void gather(const gl::Program& program) override;
 
     /// Waits for the device.
-    ShadingCount read(EarlyTests& early_tests) const;
+    ShadingCount read(EarlyTests& early_tests);
 
   private:
     /// When a program's fragments are tested according to OpenGL.
@@ -67,6 +73,7 @@ class ShadingCounter : public DrawObserver {
     const Variants& variants_of(const gl::Program& program);
     Tally& tally_of(const Key& key);
     void prepare(const gl::Program& original, const gl::Program& variant, const CountImage& image) const;
+    void prepare_early(const gl::Program& original, const gl::Program& variant, const CountImage& image) const;
     void draw_late(const gl::Program& program, Order order, std::size_t first, std::size_t count);
     void draw_early(const gl::Program& program, Order order, std::size_t first, std::size_t count);
     void draw_twice(const gl::Program& program, const gl::Program& variant, Order order, std::size_t first,
@@ -76,11 +83,15 @@ class ShadingCounter : public DrawObserver {
     Scene& m_scene;
     int m_width_px, m_height_px;
     bool m_early = false;
+    std::size_t m_window = 0;
+    WarpCounter m_warps;
+    std::string m_no_warps_reason;
+    CountImage m_counted;                   ///< of fragments that have been counted before
     std::map<GLuint, Variants> m_variants;  ///< by the original's id
     std::map<Key, Tally> m_tallies;
 };
 
-/// Counts what `render_frame` draws of the scene; it is called twice.
+/// Counts what `render_frame` draws of the scene; it is called at least twice.
 ShadingCount count_shaded(const gl::Functions& gl, Scene& scene, const Target& target, EarlyTests& early_tests,
                           const std::function<void()>& render_frame);
 

@@ -214,6 +214,31 @@ class RunWriter {
                 ""};
     }
 
+    /// What its warps cost, in texture reads: one for the start of each and its test, and the shading of the live ones.
+    static OrReason<double> model_cost(const MethodResult& result) {
+        const FragmentCounts& counts = result.fragments;
+        if (!counts.warps) return {{}, counts.no_warps_reason};
+        if (!counts.reads) return {{}, "how many textures the shading reads depends on the fragment"};
+        return {static_cast<double>(counts.warps->warps + counts.warps->live_warps * *counts.reads), ""};
+    }
+
+    OrReason<double> model_speedup(const MethodResult& result) const {
+        const auto baseline = std::ranges::find_if(m_run.results, [this](const MethodResult& other) {
+            return other.method.label == m_spec.baseline && other.status == report::ResultStatus::ok;
+        });
+        if (baseline == m_run.results.end()) return {{}, "the baseline did not run"};
+        const OrReason<double> of_baseline = model_cost(*baseline), own = model_cost(result);
+        if (!own) return own;
+        if (!of_baseline) return {{}, "of the baseline: " + of_baseline.reason};
+        if (*own == 0) return {{}, "no warp starts"};
+        return {*of_baseline / *own, ""};
+    }
+
+    static OrReason<std::int64_t> warps_of(const FragmentCounts& counts, std::int64_t WarpCounts::*which) {
+        if (!counts.warps) return {{}, counts.no_warps_reason};
+        return {(*counts.warps).*which, ""};
+    }
+
     report::Fragments fragments(const MethodResult& result) const {
         const FragmentCounts& counts = result.fragments;
         return {.submitted = static_cast<std::int64_t>(m_run.overdraw.total()),
@@ -221,6 +246,11 @@ class RunWriter {
                 .visible = count_of(counts.visible, counts.no_visible_reason),
                 .needed = count_of(counts.needed, counts.no_needed_reason),
                 .shaded_by = counts.shaded ? counts.shaded_by : "",
+                .quads = warps_of(counts, &WarpCounts::quads),
+                .live_quads = warps_of(counts, &WarpCounts::live_quads),
+                .warps = warps_of(counts, &WarpCounts::warps),
+                .live_warps = warps_of(counts, &WarpCounts::live_warps),
+                .model_speedup = model_speedup(result),
                 .efficiency = efficiency(result)};
     }
 

@@ -76,14 +76,16 @@ Row rounded_row(const report::Rounded& rounded) {
 Row fragment_row(const Result& result) {
     if (result.status != ResultStatus::ok) return no_result(result);
     Row cells = {result.label};
-    for (const char* name : {"submitted", "shaded", "visible", "needed"})
+    for (const char* name : {"submitted", "shaded", "visible", "needed", "live_warps"})
         cells.push_back(number(result, fmt::format("fragments.{}", name), 0));
+    cells.push_back(number(result, "fragments.model_speedup", 2));
     cells.push_back(number(result, "fragments.efficiency", 2));
     return cells;
 }
 
 std::string fragment_table(const report::Run& run) {
-    std::vector<Row> rows = {{"method", "submitted", "shaded", "visible", "needed", "efficiency"}};
+    std::vector<Row> rows = {
+        {"method", "submitted", "shaded", "visible", "needed", "live warps", "model ×", "efficiency"}};
     for (const Result& result : run.results) rows.push_back(fragment_row(result));
     return aligned(rows);
 }
@@ -164,9 +166,9 @@ std::string published_text(const nlohmann::json& published) {
 
 /// Published beside measured figures, then the outcome of each trend.
 std::string suite_text(const report::Suite& suite) {
+    if (suite.figures.empty()) return fmt::format("\n{}\n", suite.source);
     std::vector<Row> rows = {{"at", "method", "metric", "published", "measured"}};
     for (const report::Figure& figure : suite.figures)
-    if (suite.figures.empty()) return fmt::format("\n{}\n", suite.source);
         rows.push_back({describe_point(figure.at), figure.method, figure.metric, published_text(figure.published),
                         figure.measured ? number_text(*figure.measured) : "-"});
     std::string text =

@@ -92,6 +92,8 @@ struct Fragments {
     std::int64_t submitted = 0;
     OrReason<std::int64_t> shaded, visible, needed;
     std::string shaded_by;
+    OrReason<std::int64_t> quads, live_quads, warps, live_warps;
+    OrReason<double> model_speedup;
     OrReason<double> efficiency;
 };
 
@@ -199,9 +201,9 @@ struct Run {
 };
 
 struct Growth {
+    std::string metric = "timing.median";  ///< older reports do not say it
     std::string pointer;
     Point at = nlohmann::json::object();
-    std::string metric = "timing.median";  ///< older reports do not say it
     std::string method;
     double exponent = 0;
     Interval ci95{0, 0};

@@ -202,6 +202,16 @@ const Description<report::Fragments>& description_of() {
                     "has to shade")
             .member(&report::Fragments::needed, "needed",
                     "those from front to back until the transmittance is under the method's threshold")
+            .member(&report::Fragments::quads, "quads",
+                    "groups of 2 x 2 pixels in which fragments of a primitive start, on a device that tests depth and "
+                    "stencil early")
+            .member(&report::Fragments::live_quads, "live_quads", "those in which the shading runs for a fragment")
+            .member(&report::Fragments::warps, "warps", "the same of 8 x 4 pixels: 32 threads that end together")
+            .member(&report::Fragments::live_warps, "live_warps", "those in which the shading runs for a fragment")
+            .member(
+                &report::Fragments::model_speedup, "model_speedup",
+                "a model, not measured: the baseline's cost over its own, where a started warp costs as much as one "
+                "texture read and a live one as many more as its shading makes (docs/measuring.md)")
             .member(&report::Fragments::efficiency, "efficiency",
                     "ideal time (that of f2b for only the needed fragments) over the method's own time");
     return description;

@@ -160,6 +160,7 @@ void Scene::make_shading(const Geometry& geometry, const nlohmann::json& paramet
     const auto name = parameters.at("shading").get<std::string>();
     if (const Shading* shading = find_shading(name)) {
         m_reads = m_most_iterations = shading->reads;
+        m_reads_of_fragment = shading->reads;
         m_shading_source += define("TEXTURED", shading->reads > 0) + define("MATH", shading->math);
         m_shading_source += gl::shader_file("scenes/real_work.glsl");
         if (shading->reads > 0) make_textures(geometry, parameters.at("texture"));

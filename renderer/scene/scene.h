@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,8 @@ class Scene {
     /// triangles in this order at 1, and the texture coordinates of emission, if there are any, at 6.
     void bind_triangles(const gl::Program& program, Order order) const;
     bool has_emission_uvs() const { return static_cast<bool>(m_emission_uvs); }
+    /// Texture reads of a fragment's shading, if they are the same for all.
+    std::optional<int> reads_of_fragment() const { return m_reads_of_fragment; }
     /// Of all loops of the shading of one fragment together, the most iterations.
     int most_iterations() const { return m_most_iterations; }
 
@@ -134,6 +137,7 @@ class Scene {
     DrawList m_opaque;
     DrawList m_lists[3];  ///< by Order
     int m_reads = 0;
+    std::optional<int> m_reads_of_fragment;
     gl::Texture m_textures;  ///< an array of four
     VolumeTextures m_volume;
     gl::Buffer m_materials;  ///< of a model, and their pictures as arrays

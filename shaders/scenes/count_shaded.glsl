@@ -8,10 +8,45 @@ layout(binding = 0, r32ui) uniform restrict uimage2D u_shaded;
 // Pixels of that image per pixel of the picture that is drawn, which may be smaller.
 uniform vec2 u_shaded_scale;
 
+// See renderer/counting/warp_counter.h: four words for each of u_warp_primitives primitives from u_first_warp_primitive
+// on, and then two for each block of each of them.
+layout(std430, binding = 8) restrict buffer SheerWarps { uint sheer_warps[]; };
+uniform uint u_first_warp_primitive, u_warp_primitives;
+
+const uint sheer_started = 0u, sheer_live = 1u;
+
+// Sets the bit of the fragment's pixel in the word of its primitive's block of 8 x 4 pixels.
+void mark_in_warp(uint word) {
+    uint primitive = v_primitive - u_first_warp_primitive;
+    if (primitive >= u_warp_primitives) return;
+    uint entry = 4u * primitive, size = sheer_warps[entry + 3u];
+    ivec2 blocks = ivec2(size & 0xffffu, size >> 16);
+    if (blocks.x == 0) return;
+    ivec2 corner = ivec2(vec2(sheer_warps[entry + 1u], sheer_warps[entry + 2u]) / u_shaded_scale);
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 block = clamp(pixel / ivec2(8, 4) - corner / ivec2(8, 4), ivec2(0), blocks - 1);
+    uint place = sheer_warps[entry] + 2u * uint(block.y * blocks.x + block.x);
+    atomicOr(sheer_warps[place + word], 1u << ((pixel.x & 7) + 8 * (pixel.y & 3)));
+}
+
 vec4 counted_real_work(vec2 uv, vec4 tint) {
     imageAtomicAdd(u_shaded, ivec2(gl_FragCoord.xy * u_shaded_scale), 1u);
+#ifdef SHEER_GATHERS
+    mark_in_warp(sheer_started);
+#endif
+    mark_in_warp(sheer_live);
     return real_work(uv, tint);
 }
 
+// The method's own main() is called by the one that is appended to the program.
+void main_of_method();
+void counted_main() {
+#ifndef SHEER_GATHERS
+    mark_in_warp(sheer_started);
+#endif
+    main_of_method();
+}
+
 #define real_work counted_real_work
+#define main main_of_method
 #endif

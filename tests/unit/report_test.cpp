@@ -453,9 +453,11 @@ TEST_F(ReportFixture, FragmentsAreSummedAndEfficiencyIsIdealOverActualTime) {
     EXPECT_FALSE(fragments.contains("efficiency_reason"));
     EXPECT_DOUBLE_EQ(report()["runs"][0]["results"][0]["fragments"]["efficiency"].get<double>(), 1);
 
-    runs[0].results[1].fragments = {{{}, "why not shaded", "", {}, "why not visible"}, {}, "why not needed", {}};
+    runs[0].results[1].fragments = {
+        {{}, "why not shaded", "", {}, "why not visible", {}, "why no warps"}, {}, "why not needed", {}, 4};
     fragments = report()["runs"][0]["results"][1]["fragments"];
-    for (const std::string name : {"shaded", "shaded_by", "visible", "needed", "efficiency"})
+    for (const std::string name : {"shaded", "shaded_by", "visible", "needed", "efficiency", "warps", "live_warps",
+                                   "quads", "live_quads", "model_speedup"})
         EXPECT_TRUE(fragments[name].is_null()) << name;
     EXPECT_EQ(fragments["shaded_reason"], "why not shaded");
     EXPECT_EQ(fragments["visible_reason"], "why not visible");
@@ -472,6 +474,24 @@ TEST_F(ReportFixture, CountPicturesShareAScaleAndGiveTheirGreatestValue) {
     EXPECT_EQ(sink.bytes_by_name.at("2-F2BD--1-.shaded.png"),
               encode_png(count_picture({4, 2, std::vector<std::uint32_t>(8, 2)}, 10)));
     EXPECT_FALSE(report()["runs"][0]["results"][0]["images"].contains("saturation"));
+}
+
+/// A warp that starts costs one read, a live one four more: 10 + 4 * 10 of b2f over 10 + 4 * 2 of f2bd.
+TEST_F(ReportFixture, TheModelComparesWhatWarpsCost) {
+    for (auto& result : runs[0].results) result.fragments.reads = 4;
+    runs[0].results[0].fragments.warps = {10, 10, 70, 70};
+    runs[0].results[1].fragments.warps = {10, 2, 70, 12};
+    const json fragments = report()["runs"][0]["results"][1]["fragments"];
+    EXPECT_EQ(fragments["warps"], 10);
+    EXPECT_EQ(fragments["live_warps"], 2);
+    EXPECT_EQ(fragments["quads"], 70);
+    EXPECT_EQ(fragments["live_quads"], 12);
+    EXPECT_DOUBLE_EQ(fragments["model_speedup"].get<double>(), 50.0 / 18);
+    EXPECT_EQ(report()["runs"][0]["results"][0]["fragments"]["model_speedup"], 1);
+
+    runs[0].results[0].fragments.reads.reset();
+    EXPECT_THAT(report()["runs"][0]["results"][1]["fragments"]["model_speedup_reason"].get<std::string>(),
+                HasSubstr("of the baseline"));
 }
 
 TEST_F(ReportFixture, FragmentsCanBeChecked) {
