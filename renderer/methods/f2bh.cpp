@@ -3,8 +3,9 @@
 // VIS 2003), pixels with less than `threshold` of the transmittance left are written to the nearest depth, where the
 // early depth test rejects all later fragments. Then each tile without an open pixel is closed: it is never marked
 // again, and primitives whose tiles are all closed are dropped by their vertex stage before anything is rasterised.
-// What is saturated within a batch is discarded as in F2BD, so that few marks suffice. Nothing is read back, so the
-// device never waits for the host.
+// What is saturated within a batch is discarded as in F2BD, so that few marks suffice. Batches are measured by the area
+// of their primitives, as only layers upon layers can saturate pixels: a scene with few of them is drawn without any
+// mark. Nothing is read back, so the device never waits for the host.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,7 @@ struct F2bhParameters {
 
     double threshold = 0.01;
     Within within = Within::discards;
-    std::size_t first_batch = 64;
+    double first_layers = 6;
     double growth = 1.25;
     std::size_t tile_px = 16;
 
@@ -34,8 +35,10 @@ struct F2bhParameters {
                     "what stops a fragment whose pixel was saturated within its batch: nothing, or it reads the "
                     "transmittance like f2bd and is discarded",
                     {{"nothing", Within::nothing}, {"discard", Within::discards}})
-            .integer(&F2bhParameters::first_batch, "first_batch", "primitives before the first mark", "", 1, 1000000)
-            .number(&F2bhParameters::growth, "growth", "primitives of a batch by those of the batch before", "", 1, 16)
+            .number(&F2bhParameters::first_layers, "first_layers",
+                    "layers before the first mark: the primitives' rectangles on the screen, over the picture's area",
+                    "", 0, 1000000)
+            .number(&F2bhParameters::growth, "growth", "layers of a batch by those of the batch before", "", 1, 16)
             .integer(&F2bhParameters::tile_px, "tile_px",
                      "width and height of a tile; images of more than 256 tiles a side have larger ones", "px", 4, 256);
     }
@@ -157,6 +160,27 @@ class OpenTiles {
     bool m_scans_since_reset = true;
 };
 
+/// The numbers of primitives in the batches, from near to far. Each batch has at least one.
+std::vector<std::size_t> divide_into_batches(const Scene& scene, const F2bhParameters& parameters) {
+    constexpr double rounding = 1e-4;
+    std::vector<std::size_t> batches;
+    double wanted = parameters.first_layers, layers = 0;
+    std::size_t primitives = 0;
+    for (std::size_t place = 0; place < scene.transparent_count(); ++place) {
+        const glm::vec4 rect =
+            glm::clamp(scene.screen_rects()[scene.primitive_at(Order::near_to_far, place)], 0.0f, 1.0f);
+        layers += double{rect.z - rect.x} * double{rect.w - rect.y};
+        ++primitives;
+        if (layers < wanted * (1 - rounding)) continue;
+        batches.push_back(primitives);
+        wanted *= parameters.growth;
+        layers = 0;
+        primitives = 0;
+    }
+    if (primitives > 0) batches.push_back(primitives);
+    return batches;
+}
+
 class ClosingTiles : public OpaqueFirst {
   public:
     ClosingTiles(const MethodSetup& setup, const F2bhParameters& parameters)
@@ -164,6 +188,7 @@ class ClosingTiles : public OpaqueFirst {
           m_parameters(parameters),
           m_counts_early(parameters.within == F2bhParameters::Within::discards && !setup.context.device().software),
           m_accumulation(setup.gl, setup.target, setup.target.format()),
+          m_batches(divide_into_batches(setup.scene, parameters)),
           m_tiles(setup, static_cast<int>(parameters.tile_px), static_cast<float>(parameters.threshold)),
           m_program(make_program(setup, parameters)),
           m_mark(setup.gl, "f2bh: mark", gl::shader_file("methods/f2bh_mark.vert.glsl"),
@@ -238,10 +263,8 @@ class ClosingTiles : public OpaqueFirst {
     }
 
     void draw_batches() {
-        const std::size_t count = m_scene.transparent_count();
-        auto size = static_cast<double>(m_parameters.first_batch);
-        for (std::size_t first = 0; first < count; size *= m_parameters.growth) {
-            const std::size_t batch = std::min(static_cast<std::size_t>(std::min(size, 1e9)), count - first);
+        std::size_t first = 0;
+        for (const std::size_t batch : m_batches) {
             {
                 const Pass drawing = m_accumulation.blending();
                 m_tiles.set_textures(m_program);
@@ -252,7 +275,7 @@ class ClosingTiles : public OpaqueFirst {
                 m_scene.draw_transparent(m_program, Order::near_to_far, first, batch);
             }
             first += batch;
-            if (first == count) break;
+            if (first == m_scene.transparent_count()) break;
             mark();
             m_tiles.scan(m_accumulation);
         }
@@ -272,6 +295,7 @@ class ClosingTiles : public OpaqueFirst {
     F2bhParameters m_parameters;
     bool m_counts_early;  ///< whether an occlusion query counts fragments that an early-tested shader then discards
     Accumulation m_accumulation;
+    std::vector<std::size_t> m_batches;
     OpenTiles m_tiles;
     gl::Program m_program, m_mark;
     gl::VertexArray m_no_attributes;

@@ -8,13 +8,13 @@ MethodRow row_f2bh() {
         .id = "f2bh",
         .formula = [](const nlohmann::json&) -> Formula { return over_by_depth; },
         .sorts_primitives = true,
-        .variants = {{{{"threshold", 0}, {"first_batch", 3}, {"growth", 1}}, rounded_front_to_back},
-                     {{{"threshold", 0}, {"first_batch", 3}, {"within_batch", "nothing"}}, rounded_front_to_back}},
+        .variants = {{{{"threshold", 0}, {"first_layers", 3}, {"growth", 1}}, rounded_front_to_back},
+                     {{{"threshold", 0}, {"first_layers", 3}, {"within_batch", "nothing"}}, rounded_front_to_back}},
         .litmus =
             {{"",
               {nlohmann::json::object(),
-               {{"first_batch", 1}, {"growth", 1}, {"tile_px", 4}},
-               {{"first_batch", 1}, {"growth", 1}, {"tile_px", 4}, {"within_batch", "nothing"}}},
+               {{"first_layers", 1}, {"growth", 1}, {"tile_px", 4}},
+               {{"first_layers", 1}, {"growth", 1}, {"tile_px", 4}, {"within_batch", "nothing"}}},
               {{{"shuffled"}, passes, "it sorts before it draws"},
                {{"overflow"}, passes, "it sums nothing that could overflow; of one color, the layers have no order"},
                {{"self_overlap"}, fails, "the hull is drawn whole, by its middle, which is behind the part within it"},
@@ -31,14 +31,12 @@ MethodRow row_f2bh() {
                {{"glass", "leaves"},
                 fails,
                 "a primitive is drawn whole, so one side of the cut has the wrong order"}}}},
-        .early_exit =
-            {{nlohmann::json::object(),
-              {1, 1, 1, 1, 1},
-              "within a batch each fragment reads what is left at its pixel"},
-             {{{"within_batch", "nothing"}, {"first_batch", 8}, {"growth", 1}},
-              {1, 8, 2, 1, 1.05},
-              "up to eight primitives are drawn over a pixel before it is closed: eight layers, or two that are "
-              "made of four rectangles each"}},
+        .early_exit = {{nlohmann::json::object(),
+                        {1, 1, 1, 1, 1},
+                        "within a batch each fragment reads what is left at its pixel"},
+                       {{{"within_batch", "nothing"}, {"first_layers", 8}, {"growth", 1}},
+                        {1, 8, 8.1, 1, 1.08},
+                        "up to eight layers are drawn over a pixel before it is closed"}},
         .litmus_tolerance = 0.01,
     };
 }
