@@ -123,11 +123,18 @@ Spec without_against(Spec spec) {
          "needs the archive of a service, so post the spec there; two reports in folders are compared by sheer diff"}});
 }
 
+/// A program renders on one device.
+Spec on_one_device(Spec spec) {
+    if (spec.devices.empty()) return spec;
+    throw SpecError(std::vector<FieldError>{
+        {"/device", "lists several devices, whose workers a service brings together: use sheer submit"}});
+}
+
 }  // namespace
 
 Spec read_spec(const Source& source) {
     if (source.suite.empty() && source.spec.empty()) throw UsageError("give either a SPEC.json or a --suite");
-    if (source.suite.empty()) return without_against(load_spec(source.spec));
+    if (source.suite.empty()) return on_one_device(without_against(load_spec(source.spec)));
     const Suite* suite = find_suite(source.suite);
     if (!suite)
         throw UsageError(fmt::format("there is no suite \"{}\"; known are {}", source.suite, joined_ids(all_suites())));

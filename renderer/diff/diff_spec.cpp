@@ -128,7 +128,13 @@ std::vector<FieldDifference> report_differences(const report::Report& a, const r
 }
 
 bool is_same_device(const report::Report& a, const report::Report& b) {
-    return a.device && b.device && a.device->renderer == b.device->renderer && a.device->cpu == b.device->cpu;
+    const auto is_same = [](const std::optional<report::Device>& one, const std::optional<report::Device>& other) {
+        return one && other && one->renderer == other->renderer && one->cpu == other->cpu;
+    };
+    return is_same(a.device, b.device) &&
+           std::ranges::equal(a.devices, b.devices, [&](const auto& one, const auto& other) {
+               return one.label == other.label && is_same(one.device, other.device);
+           });
 }
 
 }  // namespace sheer

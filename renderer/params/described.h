@@ -333,7 +333,7 @@ class Description {
     template <typename M>
     Description& maybe(M T::*member, std::string_view name, std::string_view text) {
         return add<M, detail::Codec<M>>(offset_of(member), name, text,
-                                        [](const void* of) { return *static_cast<const M*>(of) == M{}; });
+                                        [](const void* of) { return is_nothing(*static_cast<const M*>(of)); });
     }
     /// Absent if there is no value, and never null.
     template <typename M>
@@ -378,6 +378,15 @@ class Description {
   private:
     template <typename Other>
     friend class Description;
+
+    /// Items of a list need not be comparable.
+    template <typename M>
+    static bool is_nothing(const M& value) {
+        if constexpr (requires { value.empty(); })
+            return value.empty();
+        else
+            return value == M{};
+    }
 
     static std::size_t bytes_between(const void* begin, const void* end) {
         return static_cast<std::size_t>(static_cast<const char*>(end) - static_cast<const char*>(begin));

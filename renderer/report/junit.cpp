@@ -173,7 +173,9 @@ std::vector<std::pair<std::string, std::string>> properties_of(const Report& rep
     add("spec_sha256", report.spec_sha256);
     if (report.status == report::Status::done) add("verdict", word_of(report.verdict));
     add("verdict_reason", report.verdict_reason);
-    if (report.device) add("device", report.device->renderer);
+    if (report.device && report.devices.empty()) add("device", report.device->renderer);
+    for (const report::DevicePart& part : report.devices)
+        add("device." + part.label, part.device ? part.device->renderer : "failed: " + part.reason);
     add("version", report.provenance.version);
     if (report.against) add("against", report.against->text);
     for (const Note& note : report.notes)

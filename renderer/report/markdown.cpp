@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "renderer/core/number_text.h"
+#include "renderer/report/across_table.h"
 #include "renderer/report/check_text.h"
 #include "renderer/results/quantity.h"
 #include "renderer/spec/sweep.h"
@@ -106,6 +107,19 @@ std::string method_rows(const report::Run& run, const MarkdownLinks& links) {
     return text;
 }
 
+/// A table row for each method and point, with columns for each device.
+std::string device_rows(const Report& report) {
+    std::string text, heading_end;
+    for (const TableRow& row : across_rows(report)) {
+        for (const std::string& column : row) text += "| " + cell(column) + " ";
+        text += "|\n";
+        if (!heading_end.empty()) continue;
+        for (std::size_t i = 0; i < row.size(); ++i) heading_end += i == 0 ? "|---" : "|--:";
+        text += heading_end + "|\n";
+    }
+    return text + "\n" + cell(across_caption(report)) + "\n";
+}
+
 /// A message of a workflow command.
 std::string escaped_message(const std::string& text) {
     std::string safe;
@@ -140,6 +154,7 @@ std::string report_markdown(const Report& report, const MarkdownLinks& links) {
     if (report.status == report::Status::done) text += "\n" + check_rows(report);
     // A sweep has its figures in the report; here a table for each point would bury the verdict.
     if (report.runs.size() == 1) text += "\n" + method_rows(report.runs.front(), links);
+    if (!report.across_devices.empty()) return text + "\n" + device_rows(report);
     if (report.runs.size() > 1) text += fmt::format("\n{} points of a sweep.\n", report.runs.size());
     return text;
 }

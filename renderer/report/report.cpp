@@ -358,15 +358,26 @@ void collect(Report& report) {
     }
 }
 
-/// A sentence for each failure to render.
-std::vector<std::string> failures(const std::vector<report::Run>& runs) {
+/// Of several devices.
+const report::DevicePart* failed_device(const Report& report, const report::Run& run) {
+    const std::string label = run.point.value(device_pointer, "");
+    const auto found = std::ranges::find(report.devices, label, &report::DevicePart::label);
+    return found != report.devices.end() && found->status == report::Status::failed ? &*found : nullptr;
+}
+
+/// A sentence for each failure to render; one for a device that rendered nothing.
+std::vector<std::string> failures(const Report& report) {
     std::vector<std::string> all;
+    for (const report::DevicePart& part : report.devices)
+        if (part.status == report::Status::failed)
+            all.push_back(fmt::format("the device {} failed: {}", part.label, part.reason));
     const auto add = [&](const report::Run& run, const std::string& what, const auto& one) {
         if (one.status != ResultStatus::failed) return;
         const std::string at = run.point.empty() ? "" : " at " + describe_point(run.point);
         all.push_back(fmt::format("{} failed{}: {}", what, at, one.reason.empty() ? "no reason" : one.reason));
     };
-    for (const report::Run& run : runs) {
+    for (const report::Run& run : report.runs) {
+        if (failed_device(report, run)) continue;
         add(run, "the reference " + run.reference.method, run.reference);
         for (const Result& result : run.results) add(run, result.label, result);
     }
@@ -382,12 +393,12 @@ void judge(Report& report) {
         return std::ranges::count(report.checks, outcome, &report::Check::came_out);
     };
     const auto failed_checks = count(report::CheckOutcome::failed), open = count(report::CheckOutcome::undecided);
-    std::vector<std::string> reasons = failures(report.runs);
+    std::vector<std::string> reasons = failures(report);
     const std::string on_undecided = report.spec.value("on_undecided", "neutral");
     const bool fails = failed_checks > 0 || !reasons.empty() || (open > 0 && on_undecided == "fail");
     report.verdict = fails ? failed : open > 0 && on_undecided == "neutral" ? undecided : checks == 0 ? none : passed;
     for (const report::Run& run : report.runs)
-        if (!run.nothing_drawn.empty()) {
+        if (!run.nothing_drawn.empty() && !failed_device(report, run)) {
             const std::string at = run.point.empty() ? "" : "at " + describe_point(run.point) + ": ";
             reasons.push_back(at + run.nothing_drawn);
         }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/core/number_text.h"
+#include "renderer/report/across_table.h"
 #include "renderer/report/check_text.h"
 #include "renderer/report/report.h"
 #include "renderer/report/sweep_table.h"
@@ -189,11 +190,18 @@ std::string check_line(const report::Check& check) {
     return line + "\n";
 }
 
+std::string device_line(const report::Device& device) {
+    return fmt::format("{}, OpenGL {} ({})\n", device.renderer, device.gl_version, device.context);
+}
+
 }  // namespace
 
 std::string report_table(const Report& report) {
     const report::Device device = report.device.value_or(report::Device{});
-    std::string text = fmt::format("{}, OpenGL {} ({})\n", device.renderer, device.gl_version, device.context);
+    std::string text = report.devices.empty() ? device_line(device) : "";
+    for (const report::DevicePart& part : report.devices)
+        text += fmt::format("{}: {}", part.label,
+                            part.device ? device_line(*part.device) : "failed: " + part.reason + "\n");
     if (device.software)
         text += "Times on a software rasteriser do not predict those on a GPU; counts of fragments are closer.\n";
     text += note_lines(report.notes);
@@ -210,6 +218,7 @@ std::string report_table(const Report& report) {
     }
     if (report.suite) text += suite_text(*report.suite);
     text += sweep_table(report);
+    text += across_table(report);
     if (!report.checks.empty()) text += "\n";
     for (const report::Check& check : report.checks) text += check_line(check);
     return text;

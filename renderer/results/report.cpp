@@ -157,7 +157,9 @@ const Description<report::Run>& description_of() {
     static const auto description =
         Description<report::Run>("Run", "the comparison at one point of the sweep")
             .json(&report::Run::point, "point",
-                  "the values that are set, by JSON pointer into the spec; {} without a sweep", point_schema)
+                  "the values that are set, by JSON pointer into the spec; {} without a sweep; of several devices, "
+                  "/device is the label",
+                  point_schema)
             .member(&report::Run::reference, "reference", "")
             .member(&report::Run::rounds, "rounds", "")
             .member(&report::Run::noise_floor, "noise_floor", "null if the baseline did not run")
@@ -368,6 +370,46 @@ const Description<report::Against>& description_of() {
 }
 
 template <>
+const Description<report::DevicePart>& description_of() {
+    using report::DevicePart;
+    static const auto description =
+        Description<DevicePart>("DevicePart", "one of several devices that render a report")
+            .member(&DevicePart::label, "label", "of its workers")
+            .member(&DevicePart::status, "status", "queued, running, done or failed")
+            .maybe(&DevicePart::reason, "reason", "why it failed")
+            .maybe(&DevicePart::device, "device", "absent until the report is done, and if it failed")
+            .maybe(&DevicePart::provenance, "provenance", "absent as `device` is")
+            .maybe(&DevicePart::qualification, "qualification",
+                   "the device's last one before this report; absent if there was none");
+    return description;
+}
+
+template <>
+const Description<report::AcrossDevice>& description_of() {
+    using report::AcrossDevice;
+    static const auto description =
+        Description<AcrossDevice>("AcrossDevice", "a method on one of several devices")
+            .member(&AcrossDevice::device, "device", "its label")
+            .member(&AcrossDevice::median, "median", "of the method's times in ms")
+            .maybe(&AcrossDevice::ci95, "ci95", "the 95 % interval of the median")
+            .member(&AcrossDevice::flip, "flip",
+                    "mean FLIP error of its picture beside that of the first device of the spec; null on this one")
+            .maybe(&AcrossDevice::differing_pixels, "differing_pixels", "between the same two pictures");
+    return description;
+}
+
+template <>
+const Description<report::AcrossRow>& description_of() {
+    using report::AcrossRow;
+    static const auto description =
+        Description<AcrossRow>("AcrossRow", "a method at one point of the sweep, on several devices")
+            .json(&AcrossRow::at, "at", "the point of the sweep", point_schema)
+            .member(&AcrossRow::method, "method", "label")
+            .member(&AcrossRow::devices, "devices", "in the order of the spec");
+    return description;
+}
+
+template <>
 const Description<report::Head>& description_of() {
     static const auto description =
         Description<report::Head>("ReportHead", "the members of every report")
@@ -390,6 +432,7 @@ const Description<report::UnfinishedReport>& description_of() {
                                               "a report that is queued or running, or that ended without being done")
             .with(description_of<report::Head>())
             .member(&report::UnfinishedReport::stage, "stage", "the current stage of the renderer")
+            .maybe(&report::UnfinishedReport::devices, "devices", "absent unless the spec lists several")
             .member(&report::UnfinishedReport::notes, "notes", "why a queued report may have to wait long");
     return description;
 }
@@ -399,12 +442,17 @@ const Description<report::Report>& description_of() {
     static const auto description =
         Description<report::Report>("Report", "a comparison of transparency methods")
             .with(description_of<report::Head>())
-            .member(&report::Report::device, "device", "")
+            .member(&report::Report::device, "device", "of several, the first one that rendered")
+            .maybe(&report::Report::devices, "devices", "absent unless the spec lists several")
+            .maybe(&report::Report::across_devices, "across_devices",
+                   "each method at each point of the sweep, on every device; absent unless the spec lists several")
             .member(&report::Report::color_space, "color_space", "")
             .member(&report::Report::provenance, "provenance", "")
             .member(&report::Report::qualification, "qualification",
                     "the device's last qualification before this report; null if there was none: `sheer qualify`")
-            .member(&report::Report::runs, "runs", "one for each point of the sweep")
+            .member(&report::Report::runs, "runs",
+                    "one for each point of the sweep; of several devices, one for each of them and each point, in the "
+                    "order of the spec")
             .member(&report::Report::growth, "growth", "for each axis of the sweep and method with enough points")
             .maybe(&report::Report::suite, "suite", "absent if the spec names no suite")
             .maybe(&report::Report::against, "against", "absent if the spec names nothing to compare with")

@@ -297,6 +297,32 @@ struct Against {
     std::vector<NotAgainst> refused;
 };
 
+/// One of several devices of a report.
+struct DevicePart {
+    std::string label;
+    Status status = Status::queued;
+    std::string reason;
+    std::optional<Device> device;
+    std::optional<Provenance> provenance;
+    std::optional<Qualification> qualification;
+};
+
+/// A method on one of several devices, at a point of the sweep.
+struct AcrossDevice {
+    std::string device;  ///< its label
+    OrReason<double> median;
+    std::optional<Interval> ci95;
+    OrReason<double> flip;
+    std::optional<std::uint64_t> differing_pixels;
+};
+
+/// A method on each of several devices.
+struct AcrossRow {
+    Point at = nlohmann::json::object();
+    std::string method;
+    std::vector<AcrossDevice> devices;
+};
+
 /// A report before it is done, or one that ended without being done.
 struct Head {
     std::string id;
@@ -309,11 +335,14 @@ struct Head {
 
 struct UnfinishedReport : Head {
     std::string stage;
+    std::vector<DevicePart> devices;
     std::vector<Note> notes;
 };
 
 struct Report : Head {
     std::optional<Device> device;
+    std::vector<DevicePart> devices;
+    std::vector<AcrossRow> across_devices;
     ColorSpace color_space;
     Provenance provenance;
     std::optional<Qualification> qualification;
@@ -456,6 +485,12 @@ template <>
 const Description<report::NotAgainst>& description_of();
 template <>
 const Description<report::Against>& description_of();
+template <>
+const Description<report::DevicePart>& description_of();
+template <>
+const Description<report::AcrossDevice>& description_of();
+template <>
+const Description<report::AcrossRow>& description_of();
 template <>
 const Description<report::Head>& description_of();
 template <>

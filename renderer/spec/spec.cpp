@@ -99,9 +99,13 @@ std::vector<Param> spec_fields() {
             "on_undecided",
             "what a check counts as that is undecided when the time is over: neutral is told and fails nothing",
             "neutral", {"pass", "fail", "neutral"}),
-        optional_text("device",
-                      "label of the workers that may render it, see GET /workers; by default any worker, and not "
-                      "there if it is not given"),
+        any("device",
+            fmt::format(
+                "label of the workers that may render it, see GET /workers, or an array of 2 to {} labels: each "
+                "of these devices renders every point, and the report compares them; by default any worker, "
+                "and not there if it is not given",
+                max_devices),
+            nullptr, max_devices),
         Param::boolean("reuse",
                        "the service answers with a done report of the same spec, program and device if it has one; not "
                        "a part of what is compared",
@@ -145,11 +149,11 @@ class SpecReader {
         read_suite(spec);
         // A wish of the sender, not a part of what is compared.
         normalised.erase("reuse");
-        // Specs without it keep the hash that they had before there were labels.
-        if (const json& device = normalised["device"]; device.is_null() || device == "") normalised.erase("device");
+        read_device(spec);
         read_against(spec);
         if (m_errors.empty()) {
             read_points(spec);
+            repeat_points(spec);
             read_checks(spec);
         }
         if (!m_errors.empty()) throw SpecError(std::move(m_errors));
@@ -159,6 +163,43 @@ class SpecReader {
   private:
     void error(const std::string& pointer, const std::string& detail) {
         add_error(m_errors, pointer, [&] { return detail; });
+    }
+
+    void read_device(Spec& spec) {
+        json& device = spec.normalised["device"];
+        if (device.is_array()) return read_devices(device, spec);
+        // Specs without it keep the hash that they had before there were labels.
+        if (device.is_null() || device == "")
+            spec.normalised.erase("device");
+        else if (!is_label(device))
+            error("/device",
+                  fmt::format("must be a text of at most {} bytes, or an array of such texts", max_text_bytes));
+    }
+
+    void read_devices(json& device, Spec& spec) {
+        if (device.empty() || device.size() > max_devices)
+            return error("/device", fmt::format("must be a label or an array of 1 to {} labels", max_devices));
+        for (std::size_t i = 0; i < device.size(); ++i) {
+            const std::string pointer = fmt::format("/device/{}", i);
+            const auto before = device.begin() + static_cast<std::ptrdiff_t>(i);
+            if (!is_label(device[i]))
+                error(pointer, fmt::format("must be a text of 1 to {} bytes", max_text_bytes));
+            else if (std::find(device.begin(), before, device[i]) != before)
+                error(pointer, fmt::format("{} is listed twice", device[i].dump()));
+            else
+                spec.devices.push_back(device[i]);
+        }
+        for (const char* other : {"against", "suite"})
+            if (!spec.normalised[other].is_null())
+                error("/device", fmt::format("must be one label in a spec with `{}`", other));
+        if (device.size() > 1) return;
+        spec.devices.clear();
+        device = json(device[0]);
+    }
+
+    static bool is_label(const json& label) {
+        return label.is_string() && !label.get_ref<const std::string&>().empty() &&
+               label.get_ref<const std::string&>().size() <= max_text_bytes;
     }
 
     void check_tags(const json& tags) {
@@ -402,6 +443,20 @@ class SpecReader {
         }
     }
 
+    /// Every device renders every point.
+    void repeat_points(Spec& spec) {
+        if (spec.devices.empty()) return;
+        if (spec.points.size() * spec.devices.size() > max_sweep_points)
+            return error("/device", fmt::format("must give at most {} points in all", max_sweep_points));
+        std::vector<SweepPoint> all;
+        for (const std::string& device : spec.devices)
+            for (SweepPoint point : spec.points) {
+                point[device_pointer] = device;
+                all.push_back(std::move(point));
+            }
+        spec.points = std::move(all);
+    }
+
     static bool reaches_into_scene(const SweepPoint& point) {
         for (const auto& [field, value] : point.items())
             if (field.starts_with("/scene/")) return true;
@@ -453,6 +508,18 @@ Spec parse_spec_text(const std::string& text) {
     } catch (const NotJson& error) {
         throw SpecError(std::vector<FieldError>{{"", std::string("is not JSON: ") + error.what()}});
     }
+}
+
+json spec_of_device(json normalised, const std::string& device) {
+    normalised["device"] = device;
+    json checks = json::array();
+    for (json& check : normalised["checks"]) {
+        if (check["at"].value(device_pointer, device) != device) continue;
+        check["at"].erase(device_pointer);
+        checks.push_back(std::move(check));
+    }
+    normalised["checks"] = std::move(checks);
+    return normalised;
 }
 
 Spec spec_at(const Spec& spec, const SweepPoint& point) {

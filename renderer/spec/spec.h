@@ -44,10 +44,11 @@ struct Spec {
     std::string baseline;  ///< label of one of `methods`
     TimingSpec timing;
     std::vector<CheckSpec> checks;
-    std::string against;             ///< "baseline:NAME" or a report's id, with which the report is compared; or ""
-    std::string suite;               ///< id of the suite that it repeats, or ""
-    std::vector<SweepPoint> points;  ///< at least one
-    nlohmann::json normalised;       ///< the whole spec as JSON; parsing it gives the same spec
+    std::string against;               ///< "baseline:NAME" or a report's id, with which the report is compared; or ""
+    std::string suite;                 ///< id of the suite that it repeats, or ""
+    std::vector<std::string> devices;  ///< labels, if it lists several; each point has one at `device_pointer`
+    std::vector<SweepPoint> points;    ///< at least one
+    nlohmann::json normalised;         ///< the whole spec as JSON; parsing it gives the same spec
 
     /// The text of which the SHA-256 is taken: keys sorted, no spaces.
     std::string canonical_text() const { return normalised.dump(); }
@@ -63,6 +64,8 @@ Spec parse_spec(const nlohmann::json& document, const AssetRule& rule = {});
 /// key twice gives one at that key.
 Spec parse_spec_text(const std::string& text);
 
+/// What one of several devices renders: the spec with its label alone, and the checks that apply to it.
+nlohmann::json spec_of_device(nlohmann::json normalised, const std::string& device);
 /// The spec of one point of its sweep, without sweep and checks.
 Spec spec_at(const Spec& spec, const SweepPoint& point);
 

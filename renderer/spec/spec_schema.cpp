@@ -21,6 +21,17 @@ json label_schema() {
     return {{"type", "string"}, {"minLength", 1}, {"maxLength", max_text_bytes}};
 }
 
+/// A label, or a list of `least` or more.
+json device_schema(std::size_t least) {
+    return {{"oneOf",
+             {{{"type", "string"}, {"maxLength", max_text_bytes}},
+              {{"type", "array"},
+               {"minItems", least},
+               {"maxItems", max_devices},
+               {"uniqueItems", true},
+               {"items", label_schema()}}}}};
+}
+
 json scene_schemas(SchemaOf object) {
     json scenes = json::array();
     for (const SceneInfo& scene : all_scenes()) {
@@ -94,7 +105,9 @@ void add_own_fields(json& schema, SchemaOf object, const json& methods) {
         {{"type", "array"}, {"minItems", 1}, {"maxItems", max_methods}, {"items", {{"oneOf", methods}}}});
     properties["under_test"].update(
         {{"type", "array"}, {"maxItems", max_under_test}, {"items", {{"type", "string"}, {"pattern", "^/"}}}});
-    properties["checks"]["items"]["properties"]["at"].update(swept_point_schema());
+    json& at = properties["checks"]["items"]["properties"]["at"];
+    at.update(swept_point_schema());
+    at["patternProperties"]["^/device$"] = label_schema();
 }
 
 }  // namespace
@@ -102,6 +115,8 @@ void add_own_fields(json& schema, SchemaOf object, const json& methods) {
 json spec_schema() {
     json schema = schema_of(spec_fields());
     schema["required"] = {"scene", "methods"};
+    schema["properties"]["device"].update(device_schema(1));
+    schema["properties"]["device"]["oneOf"].push_back({{"type", "null"}});
     const json methods = with_ids(with_label(method_schemas(schema_of), schema_of, false));
     add_own_fields(schema, schema_of, methods);
     schema["properties"]["reference"]["oneOf"] = with_ids(method_schemas(schema_of));
@@ -114,6 +129,7 @@ json normalised_spec_schema() {
                    with_label(method_schemas(normalised_schema_of), normalised_schema_of, true));
     schema["properties"]["reference"]["oneOf"] = method_schemas(normalised_schema_of);
     schema["properties"].erase("reuse");
+    schema["properties"]["device"].update(device_schema(2));
     for (const char* name : {"reuse", "device"}) std::erase(schema["required"].get_ref<json::array_t&>(), json(name));
     json baseline = label_schema();
     baseline["description"] = "label of the method with which times are compared";

@@ -11,6 +11,9 @@ inline constexpr std::size_t max_sweeps = 4, max_sweep_points = 256;
 /// Limit for what a sweep repeats at its points (see json_weight): some seconds of checking.
 inline constexpr std::size_t max_sweep_weight = 8'000'000;
 
+/// The device's label in the points of a report of several devices.
+inline constexpr const char* device_pointer = "/device";
+
 /// A point of a sweep: values by JSON pointer, {"/scene/count": 16}; {} without a sweep.
 using SweepPoint = nlohmann::json;
 

@@ -1,6 +1,7 @@
 #include "server/archive/report_facts.h"
 
 #include "renderer/core/sha256.h"
+#include "server/archive/sqlite_parts.h"
 #include "server/archive/sqlite_steps.h"
 #include "server/jobs/store_errors.h"
 #include "server/storage/stored_report.h"
@@ -19,10 +20,21 @@ ReportFacts::ReportFacts(SQLite::Database& database, std::string id) : m_databas
     m_status = status_of(row.getColumn(0));
     m_spec = row.getColumn(1).getString();
     m_spec_sha256 = row.getColumn(2).getString();
+    if (!is_final(m_status)) read_ended_parts();
     if (m_status != Status::done) return;
     try {
         m_report = json::parse(document_in(row.getColumn(3), row.getColumn(4), m_id), nullptr, false);
         if (!m_report.is_object()) m_unreadable = "its text is not JSON";
+    } catch (const DamagedData& damaged) {
+        m_unreadable = damaged.what();
+    }
+}
+
+/// The pictures of a report of several devices belong to its parts until these are joined.
+void ReportFacts::read_ended_parts() {
+    try {
+        const std::vector<EndedPart> parts = read_parts(m_database, m_id, true);
+        if (!parts.empty()) m_report = joined_runs(parts);
     } catch (const DamagedData& damaged) {
         m_unreadable = damaged.what();
     }

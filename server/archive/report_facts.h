@@ -21,6 +21,7 @@ class ReportFacts {
     std::vector<std::string> wrong_relations() const;
 
   private:
+    void read_ended_parts();
     bool has_seal() const;
     std::vector<std::string> named(const char* sql) const;
 

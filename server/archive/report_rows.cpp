@@ -3,6 +3,7 @@
 #include <SQLiteCpp/VariadicBind.h>
 
 #include "server/archive/sqlite_index.h"
+#include "server/archive/sqlite_parts.h"
 #include "server/archive/sqlite_steps.h"
 #include "server/archive/sqlite_trends.h"
 #include "server/jobs/facets.h"
@@ -32,9 +33,7 @@ void insert_report(SQLite::Database& database, const NewReport& report, std::int
         SQLite::bind(tag, report.id, name, value.get<std::string>());
         tag.exec();
     }
-    SQLite::Statement job(database, "INSERT INTO jobs VALUES (?, ?, ?)");
-    SQLite::bind(job, report.id, report.sender ? report.sender->token : std::string(), report.cost_mpx);
-    job.exec();
+    insert_job(database, report);
     add_to_index(database, {.id = report.id, .facets = facets, .spec_sha256 = report.spec_sha256});
 }
 

@@ -50,6 +50,26 @@ void SqliteBlobs::remove(const std::vector<std::string>& candidates) {
     remove_unnamed_files(unnamed);
 }
 
+void SqliteBlobs::remove_of_parts(const std::string& report) {
+    const std::string named =
+        "report_id = ? AND EXISTS (SELECT 1 FROM reports WHERE id = report_id AND status IN ('failed', 'cancelled'))";
+    const auto names_of = [&](SQLite::Database& database) {
+        std::vector<std::string> names;
+        SQLite::Statement rows(database, "SELECT sha256 FROM report_blobs WHERE " + named);
+        rows.bind(1, report);
+        while (rows.executeStep()) names.push_back(rows.getColumn(0).getString());
+        return names;
+    };
+    const std::vector<std::string> names = m_archive.read(names_of);
+    if (names.empty()) return;
+    m_archive.essential([&](SQLite::Database& database) {
+        SQLite::Statement drop(database, "DELETE FROM report_blobs WHERE " + named);
+        drop.bind(1, report);
+        drop.exec();
+    });
+    remove(names);
+}
+
 void SqliteBlobs::remove_unnamed_files(const std::vector<std::string>& candidates) {
     m_archive.essential([&](SQLite::Database& database) {
         for (const std::string& sha256 : candidates) {

@@ -16,6 +16,8 @@ class SqliteBlobs : public Blobs {
     void add(SQLite::Database& database, const std::string& report, const BlobName& blob);
     /// Removes those `candidates` that no report names.
     void remove(const std::vector<std::string>& candidates);
+    /// Those that the parts of a report have named, if it ended without being done.
+    void remove_of_parts(const std::string& report);
     /// Removes the files of those `candidates` that have no row.
     void remove_unnamed_files(const std::vector<std::string>& candidates);
 

@@ -46,7 +46,7 @@ void measure_blobs(SQLite::Database& database, const DataFolder& folder) {
     }
 }
 
-constexpr std::array<Migration, 12> migrations = {{{"schema.sql"},
+constexpr std::array<Migration, 13> migrations = {{{"schema.sql"},
                                                    {"assets.sql"},
                                                    {"retries.sql"},
                                                    {"baselines.sql"},
@@ -57,7 +57,8 @@ constexpr std::array<Migration, 12> migrations = {{{"schema.sql"},
                                                    {"metrics.sql"},
                                                    {"workers.sql"},
                                                    {"facet_bits.sql", index_all},
-                                                   {"quotas.sql"}}};
+                                                   {"quotas.sql"},
+                                                   {"parts.sql"}}};
 
 std::string sql_file(const std::string& name) {
     for (const EmbeddedFile& file : embedded_server_files())

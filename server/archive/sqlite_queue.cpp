@@ -6,6 +6,7 @@
 
 #include "server/archive/report_rows.h"
 #include "server/archive/sqlite_activity.h"
+#include "server/archive/sqlite_parts.h"
 #include "server/archive/sqlite_steps.h"
 
 namespace sheer {
@@ -14,12 +15,21 @@ namespace {
 
 const JobError worker_died{"Rendering failed", "The worker died while it rendered this report."};
 
-constexpr const char* lease_condition = "id = ? AND status = 'running' AND lease_owner = ? AND attempts = ?";
+/// The attempts of each part count from 1.
+constexpr const char* lease_condition =
+    "id = ? AND status = 'running' AND lease_owner = ? AND attempts = ? AND "
+    "(SELECT parts_ended FROM jobs WHERE report_id = id) = ?";
+
+/// A job that is due and that a worker may run, with its time and its label as ?1 and ?2.
+constexpr const char* due_condition =
+    "status = 'queued' AND not_before_ms <= ?1 AND (labels = '[]' OR EXISTS (SELECT 1 FROM json_each(labels) WHERE "
+    "value = ?2))";
 
 void bind_lease(SQLite::Statement& statement, int first, const Lease& lease) {
     statement.bind(first, lease.id);
     statement.bind(first + 1, lease.owner);
     statement.bind(first + 2, lease.attempt);
+    statement.bind(first + 3, lease.parts_ended);
 }
 
 LeaseState read_state(SQLite::Database& database, const Lease& lease) {
@@ -65,21 +75,22 @@ std::optional<Lease> SqliteQueue::lease(const std::string& owner, const std::str
     // Idle workers ask often, so the write lock is taken only if there is something to do.
     const bool anything = m_archive.read([&](SQLite::Database& database) {
         SQLite::Statement row(
-            database,
-            "SELECT EXISTS (SELECT 1 FROM reports WHERE status = 'queued' AND not_before_ms <= ?1 AND "
-            "coalesce(json_extract(spec, '$.device'), '') IN ('', ?2)) OR "
-            "EXISTS (SELECT 1 FROM reports WHERE status = 'running' AND lease_until_ms < ?1)");
+            database, fmt::format("SELECT EXISTS (SELECT 1 FROM reports JOIN jobs ON report_id = id WHERE {}) OR "
+                                  "EXISTS (SELECT 1 FROM reports WHERE status = 'running' AND lease_until_ms < ?1)",
+                                  due_condition));
         SQLite::bind(row, m_archive.now_ms(), label);
         return row.executeStep() && row.getColumn(0).getInt() != 0;
     });
     if (!anything) return std::nullopt;
-    return m_archive.write([&](SQLite::Database& database) -> std::optional<Lease> {
+    std::vector<std::string> lost;
+    const auto leased = m_archive.write([&](SQLite::Database& database) -> std::optional<Lease> {
         const std::int64_t now_ms = m_archive.now_ms();
-        end_lost_leases(database, "lease_until_ms < cast(? AS INTEGER)", std::to_string(now_ms));
+        lost = end_lost_leases(database, "lease_until_ms < cast(? AS INTEGER)", std::to_string(now_ms));
         SQLite::Statement next(
             database,
-            "SELECT id, attempts, spec, spec_sha256, created_ms, setbacks FROM reports WHERE status = 'queued' AND "
-            "not_before_ms <= ? AND coalesce(json_extract(spec, '$.device'), '') IN ('', ?) ORDER BY id LIMIT 1");
+            fmt::format("SELECT id, attempts, spec, spec_sha256, created_ms, setbacks FROM reports JOIN jobs ON "
+                        "report_id = id WHERE {} ORDER BY id LIMIT 1",
+                        due_condition));
         SQLite::bind(next, now_ms, label);
         if (!next.executeStep()) return std::nullopt;
         Lease lease{.id = next.getColumn(0).getString(),
@@ -90,14 +101,18 @@ std::optional<Lease> SqliteQueue::lease(const std::string& owner, const std::str
                     .created_ms = next.getColumn(4).getInt64(),
                     .setbacks = next.getColumn(5).getInt()};
         next.reset();
+        begin_part(database, label, lease);
         SQLite::Statement take(database,
-                               "UPDATE reports SET status = 'running', progress = 0, stage = '', attempts = ?, "
+                               "UPDATE reports SET status = 'running', progress = ?, stage = '', attempts = ?, "
                                "lease_owner = ?, lease_until_ms = ?, not_before_ms = 0, lacks_room = 0, revision = "
                                "revision + 1 WHERE id = ?");
-        SQLite::bind(take, lease.attempt, owner, now_ms + m_archive.rules().lease_ms, lease.id);
+        SQLite::bind(take, parts_progress(lease.parts_ended, lease.parts, 0), lease.attempt, owner,
+                     now_ms + m_archive.rules().lease_ms, lease.id);
         take.exec();
         return lease;
     });
+    for (const std::string& id : lost) m_blobs.remove_of_parts(id);
+    return leased;
 }
 
 LeaseState SqliteQueue::heartbeat(const Lease& lease, double progress, const std::string& stage) {
@@ -120,6 +135,10 @@ LeaseState SqliteQueue::state(const Lease& lease) {
     return m_archive.read([&](SQLite::Database& database) { return read_state(database, lease); });
 }
 
+std::vector<EndedPart> SqliteQueue::ended_parts(const Lease& lease) {
+    return m_archive.read([&](SQLite::Database& database) { return read_parts(database, lease.id, true); });
+}
+
 bool SqliteQueue::commit(const Lease& lease, const FinishedReport& finished) {
     std::vector<std::string> added;
     bool kept = false;
@@ -131,6 +150,7 @@ bool SqliteQueue::commit(const Lease& lease, const FinishedReport& finished) {
         throw;
     }
     if (!kept) m_blobs.remove_unnamed_files(added);
+    if (!kept) m_blobs.remove_of_parts(lease.id);
     m_archive.checkpoint();
     return kept;
 }
@@ -144,7 +164,12 @@ bool SqliteQueue::commit_rows(const Lease& lease, const FinishedReport& finished
         // Before the write lock was held, a deletion may have removed a file that another report shared with this one.
         for (const BlobName& blob : finished.blobs)
             if (!m_archive.blobs().find(blob.sha256)) put_blob(finished, blob, added);
-        finish_report(database, m_blobs, lease.id, finished);
+        if (lease.part.empty()) {
+            finish_report(database, m_blobs, lease.id, finished);
+        } else {
+            for (const BlobName& blob : finished.blobs) m_blobs.add(database, lease.id, blob);
+            end_part(database, m_archive, lease.id, {.label = lease.part, .report = finished.report.dump()});
+        }
         write_rendered(database, m_archive.now_ms());
         return true;
     });
@@ -168,8 +193,9 @@ void SqliteQueue::fail_by_signal(const Lease& lease, const JobError& error, int 
         note.exec();
         const bool cancelled = state == LeaseState::cancel_requested;
         const Status after = after_lost_attempt(lease.attempt, cancelled, m_archive.rules());
-        end_attempt(database, m_archive, lease.id, error, again && !cancelled ? Status::failed : after);
+        end_attempt_at_part(database, m_archive, lease.id, error, again && !cancelled ? Status::failed : after);
     });
+    m_blobs.remove_of_parts(lease.id);
     m_archive.checkpoint();
 }
 
@@ -181,7 +207,7 @@ void SqliteQueue::set_back(const Lease& lease, const JobError& error, bool lacks
             return end_attempt(database, m_archive, lease.id, {}, Status::cancelled);
         const int setbacks = lease.setbacks + 1;
         if (setbacks > m_archive.rules().max_setbacks)
-            return end_attempt(database, m_archive, lease.id, error, Status::failed);
+            return end_attempt_at_part(database, m_archive, lease.id, error, Status::failed);
         requeue(database, lease.id, lease.attempt - 1);
         SQLite::Statement wait(
             database, "UPDATE reports SET stage = ?, setbacks = ?, not_before_ms = ?, lacks_room = ? WHERE id = ?");
@@ -189,6 +215,7 @@ void SqliteQueue::set_back(const Lease& lease, const JobError& error, bool lacks
                      m_archive.now_ms() + setback_ms(setbacks, m_archive.rules()), lacks_room ? 1 : 0, lease.id);
         wait.exec();
     });
+    m_blobs.remove_of_parts(lease.id);
     m_archive.checkpoint();
 }
 
@@ -200,8 +227,9 @@ void SqliteQueue::fail(const Lease& lease, const JobError& error, bool retry) {
         const bool cancelled = state == LeaseState::cancel_requested;
         Status status = cancelled ? Status::cancelled : Status::failed;
         if (retry) status = after_lost_attempt(lease.attempt, cancelled, m_archive.rules());
-        end_attempt(database, m_archive, lease.id, error, status);
+        end_attempt_at_part(database, m_archive, lease.id, error, status);
     });
+    m_blobs.remove_of_parts(lease.id);
     m_archive.checkpoint();
 }
 
@@ -211,6 +239,7 @@ void SqliteQueue::cancel(const Lease& lease) {
         count_stage_time(database, m_archive, lease.id);
         end_attempt(database, m_archive, lease.id, {}, Status::cancelled);
     });
+    m_blobs.remove_of_parts(lease.id);
     m_archive.checkpoint();
 }
 
@@ -220,13 +249,17 @@ void SqliteQueue::release(const Lease& lease) {
         if (state == LeaseState::held) requeue(database, lease.id, lease.attempt - 1);
         if (state == LeaseState::cancel_requested) end_attempt(database, m_archive, lease.id, {}, Status::cancelled);
     });
+    m_blobs.remove_of_parts(lease.id);
 }
 
 void SqliteQueue::end_leases_of(const std::string& owner) {
-    m_archive.essential([&](SQLite::Database& database) { end_lost_leases(database, "lease_owner = ?", owner); });
+    const auto lost = m_archive.essential(
+        [&](SQLite::Database& database) { return end_lost_leases(database, "lease_owner = ?", owner); });
+    for (const std::string& id : lost) m_blobs.remove_of_parts(id);
 }
 
-void SqliteQueue::end_lost_leases(SQLite::Database& database, const std::string& condition, const std::string& value) {
+std::vector<std::string> SqliteQueue::end_lost_leases(SQLite::Database& database, const std::string& condition,
+                                                      const std::string& value) {
     struct Lost {
         std::string id;
         int attempts;
@@ -239,11 +272,14 @@ void SqliteQueue::end_lost_leases(SQLite::Database& database, const std::string&
     while (rows.executeStep())
         all.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getInt(), rows.getColumn(2).getInt() != 0});
     rows.reset();
+    std::vector<std::string> ids;
     for (const Lost& lost : all) {
         count_lost_lease(database);
-        end_attempt(database, m_archive, lost.id, worker_died,
-                    after_lost_attempt(lost.attempts, lost.cancel_requested, m_archive.rules()));
+        end_attempt_at_part(database, m_archive, lost.id, worker_died,
+                            after_lost_attempt(lost.attempts, lost.cancel_requested, m_archive.rules()));
+        ids.push_back(lost.id);
     }
+    return ids;
 }
 
 }  // namespace sheer

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "server/archive/sqlite_parts.h"
 #include "server/archive/sqlite_steps.h"
 
 namespace sheer {
@@ -46,6 +47,7 @@ std::optional<ReportRecord> SqliteReports::find(const std::string& id) {
             record.report = document_in(row.getColumn(10), row.getColumn(11), id);
             require_own_text(database, id);
         }
+        if (!is_final(record.status)) record.parts = read_part_states(database, id, record.spec);
         return record;
     });
 }
@@ -86,6 +88,7 @@ ReportArchive::Removal SqliteReports::remove(const std::string& id) {
         return Removal::deleted;
     });
     if (result == Removal::deleted) m_blobs.remove(candidates);
+    if (result == Removal::cancelled) m_blobs.remove_of_parts(id);
     m_archive.checkpoint();
     m_archive.room().restore_reserve();
     return result;

@@ -78,7 +78,8 @@ const Description<answer::Event>& description_of() {
             .member(&Event::status, "status", "")
             .member(&Event::progress, "progress", "fraction that is done, 0..1")
             .member(&Event::error, "error", "null unless the report failed or was cancelled")
-            .member(&Event::stage, "stage", "the current stage of the renderer");
+            .member(&Event::stage, "stage", "the current stage of the renderer")
+            .maybe(&Event::devices, "devices", "absent unless the spec lists several, and of a report that has ended");
     return description;
 }
 

@@ -46,6 +46,7 @@ struct Progress {
 /// The data of an event.
 struct Event : Progress {
     std::string stage;
+    std::vector<report::DevicePart> devices;
 };
 
 struct ReportLine : Progress {

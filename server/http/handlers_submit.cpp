@@ -87,7 +87,8 @@ Submitted submit(Service& service, QueueSpeed& speed, const Request& request) {
     const Spec spec = checked_spec(service, document);
     NewReport report{.id = service.ids.next(), .spec = spec.canonical_text()};
     report.spec_sha256 = sha256_hex(report.spec);
-    if (document.value("reuse", false) && spec.against.empty())
+    // Of several devices nobody knows whether their drivers are still the same.
+    if (document.value("reuse", false) && spec.against.empty() && spec.devices.empty())
         if (auto known = reusable_report(service, report.spec_sha256)) return {std::move(*known), true};
     report.idempotency = idempotency_key(request, document);
     const auto token = service.access.token_of(request);

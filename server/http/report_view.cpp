@@ -26,6 +26,17 @@ std::optional<report::Error> written(const std::optional<JobError>& error) {
     return report::Error{error->title, error->detail};
 }
 
+std::vector<report::DevicePart> written(const std::vector<PartState>& parts) {
+    std::vector<report::DevicePart> all;
+    for (const PartState& part : parts) {
+        report::DevicePart& one = all.emplace_back();
+        one.label = part.label;
+        one.status = written(part.status);
+        if (part.error) one.reason = fmt::format("{}: {}", part.error->title, part.error->detail);
+    }
+    return all;
+}
+
 /// "" for none.
 std::string written(const std::optional<std::int64_t>& time_ms) {
     return time_ms ? utc_text(*time_ms) : "";
@@ -57,19 +68,27 @@ std::string report_text(const ReportRecord& record, const std::vector<Note>& not
     view.spec_sha256 = record.spec_sha256;
     view.spec = stored_json(record.spec, "the spec of report " + record.id);
     view.stage = record.stage;
+    view.devices = written(record.parts);
     view.notes = notes;
     return to_document(view).dump();
 }
 
 std::vector<Note> queue_notes(const Service& service, const ReportRecord& record) {
     if (record.status != Status::queued) return {};
-    const std::string device = wanted_device(json::parse(record.spec, nullptr, false));
-    if (device.empty()) return {};
+    const std::vector<std::string> wanted = wanted_devices(json::parse(record.spec, nullptr, false));
+    if (wanted.empty()) return {};
     const auto workers = service.store.workers().list(in_sight_ms(service));
-    if (std::ranges::find(workers, device, &SeenWorker::label) != workers.end()) return {};
-    return {{"no-worker",
+    std::vector<Note> notes;
+    for (const std::string& device : wanted) {
+        const auto part = std::ranges::find(record.parts, device, &PartState::label);
+        const bool has_ended = part != record.parts.end() && is_final(part->status);
+        if (has_ended || std::ranges::find(workers, device, &SeenWorker::label) != workers.end()) continue;
+        notes.push_back(
+            {"no-worker",
              fmt::format("No worker with the label \"{}\" was seen lately; the report waits for one.", device),
-             "/device"}};
+             "/device"});
+    }
+    return notes;
 }
 
 answer::ReportLine line_of(const ReportSummary& summary) {
@@ -132,6 +151,7 @@ json event_json(const ReportRecord& record) {
     event.progress = record.progress;
     event.error = written(record.error);
     event.stage = record.stage;
+    event.devices = written(record.parts);
     return to_document(event);
 }
 

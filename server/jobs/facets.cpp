@@ -33,8 +33,18 @@ Facets facets_of(const json& spec) {
     return facets;
 }
 
-std::string wanted_device(const json& spec) {
-    return spec.is_object() ? text_at(spec, "/device") : std::string();
+std::vector<std::string> wanted_devices(const json& spec) {
+    const std::string one = spec.is_object() ? text_at(spec, "/device") : std::string();
+    return one.empty() ? listed_devices(spec) : std::vector<std::string>{one};
+}
+
+std::vector<std::string> listed_devices(const json& spec) {
+    std::vector<std::string> labels;
+    if (!spec.is_object()) return labels;
+    const json list = at(spec, "/device");
+    for (const json& label : list)
+        if (list.is_array() && label.is_string()) labels.push_back(label.get<std::string>());
+    return labels;
 }
 
 std::string renderer_of(const json& report) {

@@ -16,8 +16,10 @@ struct Facets {
 /// From the normalised spec of a report.
 Facets facets_of(const nlohmann::json& spec);
 
-/// The label of the workers that a spec asks for; "" for any.
-std::string wanted_device(const nlohmann::json& spec);
+/// The labels of the workers that a spec asks for; none for any worker.
+std::vector<std::string> wanted_devices(const nlohmann::json& spec);
+/// The same if the spec lists devices, each of which renders a part of the report; otherwise none.
+std::vector<std::string> listed_devices(const nlohmann::json& spec);
 
 /// The preview picture of a done report: the reference of its first point, or its first method's picture; null if it
 /// has none.

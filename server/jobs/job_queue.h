@@ -9,6 +9,7 @@
 
 #include "server/jobs/blobs.h"
 #include "server/jobs/job_error.h"
+#include "server/jobs/parts.h"
 #include "server/jobs/trends.h"
 
 namespace sheer {
@@ -61,6 +62,13 @@ struct Lease {
     std::string spec_sha256;
     std::int64_t created_ms = 0;
     int setbacks = 0;  ///< how often it was set back before
+    /// Of a report of several devices: the label of the one whose part is rendered; empty if all of them have ended, so
+    /// that the parts are joined now.
+    std::string part;
+    int parts = 0;        ///< how many parts the report has; 0 if it is not of several devices
+    int parts_ended = 0;  ///< how many of them have ended
+
+    bool joins() const { return parts > 0 && part.empty(); }
 };
 
 enum class LeaseState { held, cancel_requested, lost };
@@ -86,7 +94,9 @@ class JobQueue {
     // The workers' side.
 
     /// The oldest queued job that is due and whose spec asks for no device or for `label`, now running under `owner`;
-    /// jobs whose lease expired are dealt with first. None while there is no room for reports.
+    /// jobs whose lease expired are dealt with first. None while there is no room for reports. The parts of a report
+    /// of several devices are leased one after the other, in the order in which workers ask; when all have ended, any
+    /// worker gets it to join them.
     virtual std::optional<Lease> lease(const std::string& owner, const std::string& label) = 0;
     /// For a worker without a label.
     std::optional<Lease> lease(const std::string& owner) { return lease(owner, ""); }
@@ -94,9 +104,13 @@ class JobQueue {
     virtual LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) = 0;
     /// The same question without renewing anything: cheap enough to ask often.
     virtual LeaseState state(const Lease& lease) = 0;
-    /// Makes the report done with all its pictures, once. Returns false if the lease was lost or the job cancelled.
+    /// The parts that have ended, with their texts. Throws DamagedData.
+    virtual std::vector<EndedPart> ended_parts(const Lease& lease) = 0;
+    /// Makes the report done with all its pictures, once, or ends the part of the lease, after which the job waits for
+    /// another device or for being joined. Returns false if the lease was lost or the job cancelled.
     virtual bool commit(const Lease& lease, const FinishedReport& finished) = 0;
-    /// Ends the attempt without a report; `retry` if another attempt could succeed.
+    /// Ends the attempt without a report; `retry` if another attempt could succeed. Where a job would fail for good, a
+    /// part does, and the others go on; the job fails if all of them did.
     virtual void fail(const Lease& lease, const JobError& error, bool retry) = 0;
     /// Ends the attempt of a renderer that was killed by a signal. Another one follows, as after `fail`, unless the
     /// same spec has killed a renderer by the same signal before.

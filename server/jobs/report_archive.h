@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/jobs/job_error.h"
+#include "server/jobs/parts.h"
 #include "server/jobs/status.h"
 
 namespace sheer {
@@ -23,6 +24,7 @@ struct ReportRecord {
     std::string spec_sha256;
     std::optional<JobError> error;  ///< of a failed report
     std::string report;             ///< JSON text of a done report, otherwise empty
+    std::vector<PartState> parts;   ///< of one of several devices that has not ended
 };
 
 /// A line of the archive's list.

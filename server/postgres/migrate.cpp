@@ -11,7 +11,7 @@ namespace sheer::postgres {
 namespace {
 
 /// Each turns a store of one version into one of the next.
-constexpr std::array<const char*, 2> migrations = {{"schema.sql", "quotas.sql"}};
+constexpr std::array<const char*, 3> migrations = {{"schema.sql", "quotas.sql", "parts.sql"}};
 
 /// Any number that no other program is likely to lock.
 constexpr std::int64_t lock_number = 0x5368656572;

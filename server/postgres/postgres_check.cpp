@@ -5,6 +5,7 @@
 #include "renderer/core/sha256.h"
 #include "server/jobs/facets.h"
 #include "server/jobs/search.h"
+#include "server/postgres/postgres_parts.h"
 #include "server/storage/stored_report.h"
 
 namespace sheer::postgres {
@@ -68,6 +69,9 @@ void PostgresCheck::check_report(Connection& connection, const std::string& id) 
     if (is_done && row.is_null(0, 9)) wrong.emplace_back("its text is missing");
     if (is_done && !row.is_null(0, 9))
         report = json::parse(stored_report_text(row.bytes(0, 9), row.text(0, 8), id), nullptr, false);
+    // The pictures of a report of several devices belong to its parts until these are joined.
+    if (row.text(0, 0).empty())
+        if (const auto parts = read_parts(connection, id, true); !parts.empty()) report = joined_runs(parts);
     if (is_done && report.is_discarded()) wrong.emplace_back("its text is not JSON");
     if (sha256_hex(spec) != row.text(0, 2)) wrong.emplace_back("its spec has another hash");
     if (!row.flag(0, 10)) wrong.emplace_back("it has both a final status and a job, or neither");

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/jobs/facets.h"
+#include "server/postgres/postgres_parts.h"
 #include "server/postgres/postgres_steps.h"
 #include "server/postgres/report_rows.h"
 
@@ -37,9 +37,7 @@ SubmitResult PostgresQueue::submit(const NewReport& report, const QueueLimits& l
             if (const auto no = refusal_of(*report.sender, use_of(connection, report.sender->token))) return {*no, ""};
         if (const std::string lack = find_lack_of_room(connection); !lack.empty()) throw StoreFull(lack);
         if (!insert_report(connection, report, std::nullopt)) throw Conflict("the same key came twice at once");
-        connection.run("INSERT INTO jobs (report_id, label, token, cost_mpx) VALUES ($1, $2, $3, $4)",
-                       {report.id, wanted_device(nlohmann::json::parse(report.spec)),
-                        report.sender ? report.sender->token : std::string(), report.cost_mpx});
+        insert_job(connection, report);
         tell_new_job(connection);
         return {Outcome::created, report.id};
     });
@@ -49,8 +47,8 @@ std::optional<Lease> PostgresQueue::lease(const std::string& owner, const std::s
     // Idle workers ask often, so a transaction is begun only if there is something to do.
     const auto [waits, expired] = m_database.read([&](Connection& connection) {
         const Rows row = connection.run(
-            "SELECT EXISTS (SELECT FROM jobs WHERE status = 'queued' AND not_before_ms <= now_ms() AND label IN ('', "
-            "$1)), "
+            "SELECT EXISTS (SELECT FROM jobs WHERE status = 'queued' AND not_before_ms <= now_ms() AND (labels = '{}' "
+            "OR $1 = ANY (labels))), "
             "EXISTS (SELECT FROM jobs WHERE status = 'running' AND lease_until_ms < now_ms())",
             {label});
         return std::pair(row.flag(0, 0), row.flag(0, 1));
@@ -64,12 +62,12 @@ std::optional<Lease> PostgresQueue::lease(const std::string& owner, const std::s
 std::optional<Lease> PostgresQueue::take_oldest(Connection& connection, const std::string& owner,
                                                 const std::string& label) {
     const Rows job = connection.run(
-        "UPDATE jobs SET status = 'running', progress = 0, stage = '', attempts = attempts + 1, lease_owner = $1, "
-        "lease_until_ms = now_ms() + $2, not_before_ms = 0, lacks_room = false, revision = revision + 1 WHERE "
-        "report_id = "
-        "(SELECT report_id FROM jobs WHERE status = 'queued' AND not_before_ms <= now_ms() AND label IN ('', $3) ORDER "
-        "BY "
-        "report_id LIMIT 1 FOR UPDATE SKIP LOCKED) RETURNING report_id, attempts, setbacks",
+        "UPDATE jobs SET status = 'running', progress = CASE parts WHEN 0 THEN 0 ELSE parts_ended::float8 / (parts + "
+        "1) END, stage = '', attempts = attempts + 1, lease_owner = $1, part = CASE WHEN parts > 0 AND labels <> '{}' "
+        "THEN $3 ELSE '' END, lease_until_ms = now_ms() + $2, not_before_ms = 0, lacks_room = false, revision = "
+        "revision + 1 WHERE report_id = (SELECT report_id FROM jobs WHERE status = 'queued' AND not_before_ms <= "
+        "now_ms() AND (labels = '{}' OR $3 = ANY (labels)) ORDER BY report_id LIMIT 1 FOR UPDATE SKIP LOCKED) "
+        "RETURNING report_id, attempts, setbacks, part, parts, parts_ended",
         {owner, m_database.rules().lease_ms, label});
     if (job.empty()) return std::nullopt;
     tell_change(connection);
@@ -81,7 +79,10 @@ std::optional<Lease> PostgresQueue::take_oldest(Connection& connection, const st
                  .spec = report.text(0, 0),
                  .spec_sha256 = report.text(0, 1),
                  .created_ms = report.integer(0, 2),
-                 .setbacks = static_cast<int>(job.integer(0, 2))};
+                 .setbacks = static_cast<int>(job.integer(0, 2)),
+                 .part = job.text(0, 3),
+                 .parts = static_cast<int>(job.integer(0, 4)),
+                 .parts_ended = static_cast<int>(job.integer(0, 5))};
 }
 
 LeaseState PostgresQueue::heartbeat(const Lease& lease, double progress, const std::string& stage) {
@@ -90,9 +91,10 @@ LeaseState PostgresQueue::heartbeat(const Lease& lease, double progress, const s
         const Rows before = connection.run(
             "SELECT cancel_requested, stage, greatest(now_ms() - lease_until_ms + $4, 0), progress <> $5 OR stage <> "
             "$6 "
-            "FROM jobs WHERE report_id = $1 AND status = 'running' AND lease_owner = $2 AND attempts = $3 FOR UPDATE",
+            "FROM jobs WHERE report_id = $1 AND status = 'running' AND lease_owner = $2 AND attempts = $3 AND "
+            "parts_ended = $7 FOR UPDATE",
             {lease.id, lease.owner, std::int64_t{lease.attempt}, m_database.rules().lease_ms,
-             std::clamp(progress, 0.0, 1.0), stage});
+             std::clamp(progress, 0.0, 1.0), stage, std::int64_t{lease.parts_ended}});
         if (before.empty()) return LeaseState::lost;
         connection.run(
             "UPDATE jobs SET lease_until_ms = now_ms() + $2, revision = revision + $3, progress = $4, stage = $5 WHERE "
@@ -109,11 +111,15 @@ LeaseState PostgresQueue::state(const Lease& lease) {
     return m_database.read([&](Connection& connection) {
         const Rows row = connection.run(
             "SELECT cancel_requested FROM jobs WHERE report_id = $1 AND status = 'running' AND lease_owner = $2 AND "
-            "attempts = $3",
-            {lease.id, lease.owner, std::int64_t{lease.attempt}});
+            "attempts = $3 AND parts_ended = $4",
+            {lease.id, lease.owner, std::int64_t{lease.attempt}, std::int64_t{lease.parts_ended}});
         if (row.empty()) return LeaseState::lost;
         return row.flag(0, 0) ? LeaseState::cancel_requested : LeaseState::held;
     });
+}
+
+std::vector<EndedPart> PostgresQueue::ended_parts(const Lease& lease) {
+    return m_database.read([&](Connection& connection) { return read_parts(connection, lease.id, true); });
 }
 
 bool PostgresQueue::commit(const Lease& lease, const FinishedReport& finished) {
@@ -125,7 +131,12 @@ bool PostgresQueue::commit(const Lease& lease, const FinishedReport& finished) {
         const LeaseState state = locked_state(connection, lease);
         if (state == LeaseState::held) {
             count_last_stage(connection, m_database.rules(), lease.id);
-            finish_report(connection, lease.id, finished);
+            if (lease.part.empty()) {
+                finish_report(connection, lease.id, finished);
+            } else {
+                name_pictures(connection, lease.id, finished.blobs);
+                end_part(connection, lease.id, {.label = lease.part, .report = finished.report.dump()});
+            }
             note_rendered(connection);
             tell_change(connection);
             return true;
@@ -149,7 +160,7 @@ void PostgresQueue::fail_by_signal(const Lease& lease, const JobError& error, in
         connection.run("UPDATE reports SET died_of = $2 WHERE id = $1", {lease.id, std::int64_t{signal}});
         const bool cancelled = state == LeaseState::cancel_requested;
         const Status after = after_lost_attempt(lease.attempt, cancelled, m_database.rules());
-        end_attempt(connection, lease.id, error, again && !cancelled ? Status::failed : after);
+        end_attempt_at_part(connection, lease.id, error, again && !cancelled ? Status::failed : after);
     });
 }
 
@@ -159,7 +170,8 @@ void PostgresQueue::set_back(const Lease& lease, const JobError& error, bool lac
         if (state == LeaseState::lost) return;
         if (state == LeaseState::cancel_requested) return end_attempt(connection, lease.id, {}, Status::cancelled);
         const int setbacks = lease.setbacks + 1;
-        if (setbacks > m_database.rules().max_setbacks) return end_attempt(connection, lease.id, error, Status::failed);
+        if (setbacks > m_database.rules().max_setbacks)
+            return end_attempt_at_part(connection, lease.id, error, Status::failed);
         requeue(connection, lease.id, lease.attempt - 1);
         connection.run(
             "UPDATE jobs SET stage = $2, setbacks = $3, not_before_ms = now_ms() + $4, lacks_room = $5 WHERE report_id "
@@ -177,7 +189,7 @@ void PostgresQueue::fail(const Lease& lease, const JobError& error, bool retry) 
         const bool cancelled = state == LeaseState::cancel_requested;
         Status status = cancelled ? Status::cancelled : Status::failed;
         if (retry) status = after_lost_attempt(lease.attempt, cancelled, m_database.rules());
-        end_attempt(connection, lease.id, error, status);
+        end_attempt_at_part(connection, lease.id, error, status);
     });
 }
 
@@ -209,8 +221,9 @@ void PostgresQueue::end_lost_leases(Connection& connection, const std::string& c
                        values);
     for (int i = 0; i < lost.count(); ++i) {
         count_lost_lease(connection);
-        end_attempt(connection, lost.text(i, 0), worker_died,
-                    after_lost_attempt(static_cast<int>(lost.integer(i, 1)), lost.flag(i, 2), m_database.rules()));
+        end_attempt_at_part(
+            connection, lost.text(i, 0), worker_died,
+            after_lost_attempt(static_cast<int>(lost.integer(i, 1)), lost.flag(i, 2), m_database.rules()));
     }
 }
 

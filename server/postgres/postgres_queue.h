@@ -15,6 +15,7 @@ class PostgresQueue : public JobQueue {
     std::optional<Lease> lease(const std::string& owner, const std::string& label) override;
     LeaseState heartbeat(const Lease& lease, double progress, const std::string& stage) override;
     LeaseState state(const Lease& lease) override;
+    std::vector<EndedPart> ended_parts(const Lease& lease) override;
     bool commit(const Lease& lease, const FinishedReport& finished) override;
     void fail(const Lease& lease, const JobError& error, bool retry) override;
     void fail_by_signal(const Lease& lease, const JobError& error, int signal) override;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "server/postgres/postgres_parts.h"
 #include "server/postgres/postgres_steps.h"
 #include "server/storage/stored_report.h"
 
@@ -19,20 +20,8 @@ ReportArchive::Removal delete_report(Connection& connection, const std::string& 
     using Removal = ReportArchive::Removal;
     if (is_named_in(connection, "baselines", id)) return Removal::accepted;
     if (is_named_in(connection, "pins", id)) return Removal::pinned;
-    // A report that is being committed may name one of the pictures: once they are locked, it either does already or
-    // has to store it again.
-    const Rows pictures = connection.run(
-        "SELECT sha256 FROM blobs WHERE sha256 IN (SELECT sha256 FROM report_blobs WHERE report_id = $1) ORDER BY "
-        "sha256 "
-        "FOR UPDATE",
-        {id});
+    remove_pictures(connection, id);
     connection.run("DELETE FROM reports WHERE id = $1", {id});
-    std::vector<std::string> names;
-    for (int i = 0; i < pictures.count(); ++i) names.push_back(pictures.text(i, 0));
-    connection.run(
-        "DELETE FROM blobs b WHERE sha256 = ANY ($1) AND NOT EXISTS (SELECT FROM report_blobs r WHERE r.sha256 = "
-        "b.sha256)",
-        {names});
     try_again_what_lacked_room(connection);
     tell_change(connection);
     return Removal::deleted;
@@ -58,6 +47,7 @@ std::optional<ReportRecord> PostgresReports::find(const std::string& id) {
         record.spec = row.text(0, 6);
         record.spec_sha256 = row.text(0, 7);
         record.error = error_at(row, 0, 8);
+        if (!is_final(record.status)) record.parts = read_part_states(connection, id, record.spec);
         if (record.status != Status::done) return record;
         if (row.is_null(0, 11)) throw DamagedData(fmt::format("the text of report {} is missing", id));
         record.report = stored_report_text(row.bytes(0, 11), row.text(0, 10), id);

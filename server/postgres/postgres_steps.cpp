@@ -44,8 +44,8 @@ void tell_new_job(Connection& connection) {
 LeaseState locked_state(Connection& connection, const Lease& lease) {
     const Rows row = connection.run(
         "SELECT cancel_requested FROM jobs WHERE report_id = $1 AND status = 'running' AND lease_owner = $2 AND "
-        "attempts = $3 FOR UPDATE",
-        {lease.id, lease.owner, std::int64_t{lease.attempt}});
+        "attempts = $3 AND parts_ended = $4 FOR UPDATE",
+        {lease.id, lease.owner, std::int64_t{lease.attempt}, std::int64_t{lease.parts_ended}});
     if (row.empty()) return LeaseState::lost;
     return row.flag(0, 0) ? LeaseState::cancel_requested : LeaseState::held;
 }
@@ -61,7 +61,26 @@ void end_attempt(Connection& connection, const std::string& id, const JobError& 
         "FROM job WHERE id = $1",
         {id, std::string(status_text(status)), failed ? Value(error.title) : Value(nullptr),
          failed ? Value(error.detail) : Value(nullptr)});
+    connection.run("DELETE FROM parts WHERE report_id = $1", {id});
+    remove_pictures(connection, id);
     tell_change(connection);
+}
+
+void remove_pictures(Connection& connection, const std::string& id) {
+    // A report that is being committed may name one of them: once they are locked, it either does already or has to
+    // store it again.
+    const Rows pictures = connection.run(
+        "SELECT sha256 FROM blobs WHERE sha256 IN (SELECT sha256 FROM report_blobs WHERE report_id = $1) ORDER BY "
+        "sha256 FOR UPDATE",
+        {id});
+    if (pictures.empty()) return;
+    connection.run("DELETE FROM report_blobs WHERE report_id = $1", {id});
+    std::vector<std::string> names;
+    for (int i = 0; i < pictures.count(); ++i) names.push_back(pictures.text(i, 0));
+    connection.run(
+        "DELETE FROM blobs b WHERE sha256 = ANY ($1) AND NOT EXISTS (SELECT FROM report_blobs r WHERE r.sha256 = "
+        "b.sha256)",
+        {names});
 }
 
 void requeue(Connection& connection, const std::string& id, std::optional<int> attempts) {

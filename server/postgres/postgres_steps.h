@@ -27,6 +27,8 @@ void tell_new_job(Connection& connection);
 LeaseState locked_state(Connection& connection, const Lease& lease);
 /// Ends an attempt: the job gets a final status or is queued again. `error` is for failed jobs.
 void end_attempt(Connection& connection, const std::string& id, const JobError& error, Status status);
+/// Those that only this report names.
+void remove_pictures(Connection& connection, const std::string& id);
 /// Without `attempts`, they stay.
 void requeue(Connection& connection, const std::string& id, std::optional<int> attempts);
 /// Call it after room was made.

@@ -53,10 +53,16 @@ void finish_report(Connection& connection, const std::string& id, const Finished
     const std::string text = finished.report.dump(), packed = pack_text(text);
     connection.run("INSERT INTO documents VALUES ($1, $2, $3)", {id, sha256_hex(text), Bytes{packed}});
     if (!finished.numbers.names.empty()) add_numbers(connection, id, finished.numbers);
+    connection.run("DELETE FROM parts WHERE report_id = $1", {id});
+    name_pictures(connection, id, finished.blobs);
+}
+
+void name_pictures(Connection& connection, const std::string& id, const std::vector<BlobName>& blobs) {
     std::vector<std::string> pictures;
-    for (const BlobName& blob : finished.blobs) pictures.push_back(blob.sha256);
-    connection.run("INSERT INTO report_blobs SELECT DISTINCT $1, sha256 FROM unnest($2::text[]) sha256",
-                   {id, pictures});
+    for (const BlobName& blob : blobs) pictures.push_back(blob.sha256);
+    connection.run(
+        "INSERT INTO report_blobs SELECT DISTINCT $1, sha256 FROM unnest($2::text[]) sha256 ON CONFLICT DO NOTHING",
+        {id, pictures});
 }
 
 int put_blobs(Connection& connection, const FinishedReport& finished, bool mend) {

@@ -15,6 +15,8 @@ namespace sheer::postgres {
 bool insert_report(Connection& connection, const NewReport& report, std::optional<std::int64_t> created_ms);
 /// Makes a report done, and ends its job if it has one.
 void finish_report(Connection& connection, const std::string& id, const FinishedReport& finished);
+/// Writes that the report names these pictures, which are stored.
+void name_pictures(Connection& connection, const std::string& id, const std::vector<BlobName>& blobs);
 /// Stores the pictures that are not stored yet; with `mend`, also those whose stored bytes have another hash. Returns
 /// how many it wrote. Throws StoreError if one has other bytes than its name says.
 int put_blobs(Connection& connection, const FinishedReport& finished, bool mend);

@@ -59,6 +59,16 @@ std::string picture_text(const std::string& sha256, const std::string& media_typ
     return sha256 + " " + media_type;
 }
 
+json joined_runs(const std::vector<EndedPart>& parts) {
+    json runs = json::array();
+    for (const EndedPart& part : parts) {
+        const json report = json::parse(part.report, nullptr, false);
+        if (!report.is_object()) continue;
+        for (const json& run : report.value("runs", json::array())) runs.push_back(run);
+    }
+    return {{"runs", runs}};
+}
+
 std::vector<std::string> wrong_relations(const std::string& spec, const json& report, const StoredRelations& stored) {
     std::vector<std::string> wrong;
     const Facets facets = facets_of(json::parse(spec, nullptr, false));

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/jobs/parts.h"
+
 namespace sheer {
 
 /// The text of the done report `id` from what pack_text() made of it. Throws DamagedData if it cannot be read or has
@@ -19,6 +21,9 @@ struct StoredRelations {
 
 std::string tag_text(const std::string& name, const std::string& value);
 std::string picture_text(const std::string& sha256, const std::string& media_type);
+
+/// The runs of all parts of a report that have ended, as wrong_relations() reads them.
+nlohmann::json joined_runs(const std::vector<EndedPart>& parts);
 
 /// Which of them do not agree with the report, as sentences. `report`: null if it is not done, and then its pictures
 /// are not compared.

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <future>
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/errors.h"
 #include "renderer/core/exit_codes.h"
 #include "renderer/core/files.h"
+#include "renderer/core/sha256.h"
 #include "server/jobs/foreign_input.h"
 #include "server/worker/against.h"
+#include "server/worker/joining.h"
 #include "server/worker/report_folder.h"
 #include "server/worker/scratch.h"
 
@@ -41,11 +42,48 @@ Attempt::Attempt(Store& store, const WorkerOptions& options, const ClockMs& cloc
       m_stop(stop) {}
 
 void Attempt::run() {
-    const ScratchFolder scratch(m_options.scratch, m_lease.id, m_lease.attempt);
-    write_file(scratch.path() / spec_name, m_lease.spec);
+    if (m_lease.joins()) return join();
+    render();
+}
+
+void Attempt::render() {
+    const ScratchFolder scratch(m_options.scratch, m_lease.id, m_lease.attempt, m_lease.parts_ended);
+    write_file(scratch.path() / spec_name, spec_to_render(m_lease));
     m_store.bring_here(m_lease.spec);
     spdlog::info("job {} starts, attempt {}", m_lease.id, m_lease.attempt);
     conclude(run_child(child_run(scratch.path())), scratch.path() / out_name);
+}
+
+void Attempt::join() {
+    spdlog::info("the parts of job {} are joined, attempt {}", m_lease.id, m_lease.attempt);
+    FinishedReport finished;
+    std::future<void> joining = std::async(
+        std::launch::async, [&] { finished = joined_report(m_store, m_lease, m_clock(), m_options.data, limits()); });
+    wait_for(joining, "comparing the devices");
+    const bool kept = commit(finished);
+    spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before it ended");
+}
+
+ChildLimits Attempt::limits() const {
+    return {.memory_bytes = m_options.memory_limit_bytes,
+            .time = m_options.time_limit,
+            .program = m_options.program,
+            .sandbox = m_options.sandbox,
+            .fork_server = m_options.fork_server};
+}
+
+void Attempt::wait_for(std::future<void>& work, const std::string& stage) {
+    m_progress.stage = stage;
+    while (work.wait_for(std::chrono::milliseconds(m_options.rules.heartbeat_ms)) != std::future_status::ready)
+        heartbeat();
+    work.get();
+}
+
+void Attempt::heartbeat() {
+    const bool has_prefix = !m_lease.part.empty() && !m_progress.stage.empty();
+    const std::string prefix = has_prefix ? m_lease.part + ": " : "";
+    const double progress = parts_progress(m_lease.parts_ended, m_lease.parts, m_progress.fraction);
+    m_state = m_queue.heartbeat(m_lease, progress, prefix + m_progress.stage);
 }
 
 fs::path Attempt::shaders_in(const fs::path& scratch) const {
@@ -125,7 +163,7 @@ void Attempt::ask() {
 void Attempt::beat(SteadyTime now) {
     m_last_heartbeat = now;
     try {
-        m_state = m_queue.heartbeat(m_lease, m_progress.fraction, m_progress.stage);
+        heartbeat();
         if (m_rendered) m_readiness.note_rendered();
         m_unsaved_progress = m_rendered = false;
         m_lease_kept = now;
@@ -156,7 +194,8 @@ void Attempt::conclude(const ChildResult& result, const fs::path& out) {
         m_queue.release(m_lease);
     } else if (result.status.code == exit_ok || result.status.code == exit_check_failed) {
         const bool kept = commit(finished_report(out));
-        spdlog::info("job {} {}", m_lease.id, kept ? "is done" : "was cancelled or taken over before it ended");
+        const char* const done = m_lease.part.empty() ? "is done" : "has another part";
+        spdlog::info("job {} {}", m_lease.id, kept ? done : "was cancelled or taken over before it ended");
     } else {
         conclude_failure(result.status);
     }
@@ -176,19 +215,14 @@ bool Attempt::commit(const FinishedReport& finished) {
 }
 
 FinishedReport Attempt::finished_report(const fs::path& out) {
-    FinishedReport finished = read_report_folder(out, m_lease, m_clock());
+    Lease rendered = m_lease;
+    rendered.spec = spec_to_render(m_lease);
+    rendered.spec_sha256 = sha256_hex(rendered.spec);
+    FinishedReport finished = read_report_folder(out, rendered, m_clock());
     // The pictures of a large sweep take longer than a lease.
-    std::future<void> comparing = std::async(std::launch::async, [&] {
-        compare_with_baseline(m_store, finished, out, m_options.data,
-                              {.memory_bytes = m_options.memory_limit_bytes,
-                               .time = m_options.time_limit,
-                               .program = m_options.program,
-                               .sandbox = m_options.sandbox,
-                               .fork_server = m_options.fork_server});
-    });
-    while (comparing.wait_for(std::chrono::milliseconds(m_options.rules.heartbeat_ms)) != std::future_status::ready)
-        m_queue.heartbeat(m_lease, m_progress.fraction, "comparing with the baseline");
-    comparing.get();
+    std::future<void> comparing = std::async(
+        std::launch::async, [&] { compare_with_baseline(m_store, finished, out, m_options.data, limits()); });
+    wait_for(comparing, "comparing with the baseline");
     return finished;
 }
 

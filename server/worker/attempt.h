@@ -1,7 +1,9 @@
 #pragma once
 #include <chrono>
+#include <future>
 #include <optional>
 
+#include "server/process/ask_child.h"
 #include "server/process/child_message.h"
 #include "server/process/run_child.h"
 #include "server/worker/worker.h"
@@ -18,6 +20,13 @@ class Attempt {
   private:
     using SteadyTime = std::chrono::steady_clock::time_point;
 
+    void render();
+    /// The parts of a report of several devices.
+    void join();
+    ChildLimits limits() const;
+    /// Waits for work that this process cannot stop, and keeps the lease meanwhile.
+    void wait_for(std::future<void>& work, const std::string& stage);
+    void heartbeat();
     ChildRun child_run(const std::filesystem::path& scratch);
     /// Where its driver finds and keeps compiled shaders: files and programs of others cannot leave anything in ours,
     /// so what reads them gets a copy. Empty for none.

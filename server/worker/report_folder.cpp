@@ -47,8 +47,7 @@ void check_picture_name(const BlobName& blob) {
         throw StoreError("a picture has the media type " + blob.media_type);
 }
 
-FinishedReport read_report_folder(const fs::path& folder, const Lease& lease, std::int64_t finished_ms) {
-    report::Report report = read_report(folder / "report.json");
+FinishedReport finished_report_of(report::Report report, const Lease& lease, std::int64_t finished_ms) {
     report.id = lease.id;
     report.status = report::Status::done;
     report.progress = 1;
@@ -60,6 +59,11 @@ FinishedReport read_report_folder(const fs::path& folder, const Lease& lease, st
     FinishedReport finished{.report = to_document(report), .finished_ms = finished_ms};
     finished.numbers = numbers_of(report);
     finished.blobs = named_blobs(report);
+    return finished;
+}
+
+FinishedReport read_report_folder(const fs::path& folder, const Lease& lease, std::int64_t finished_ms) {
+    FinishedReport finished = finished_report_of(read_report(folder / "report.json"), lease, finished_ms);
     finished.read_blob = [folder](const std::string& sha256) { return read_file(folder / sha256, max_picture_bytes); };
     for (const BlobName& blob : finished.blobs) {
         check_picture_name(blob);

@@ -17,6 +17,9 @@ ReportNumbers numbers_of(const report::Report& report);
 /// own origin, so it must not be a page.
 void check_picture_name(const BlobName& blob);
 
+/// The report of this job, with its numbers and the names of its pictures; those are to be read by `read_blob`.
+FinishedReport finished_report_of(report::Report report, const Lease& lease, std::int64_t finished_ms);
+
 /// Reads the output of `sheer render --out folder`, in which each picture is `folder`/<sha256>, as the report of this
 /// job. Throws StoreError if it is not valid: a missing file, a picture whose bytes have another hash, a media type
 /// that is not an image's, a report.json that is not a report.

@@ -8,21 +8,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path attempt_path(const fs::path& folder, const std::string& id, int attempt) {
-    return folder / fmt::format("{}-{}", id, attempt);
+fs::path attempt_path(const fs::path& folder, const std::string& id, int attempt, int parts_ended) {
+    const std::string part = parts_ended == 0 ? "" : fmt::format("p{}.", parts_ended);
+    return folder / fmt::format("{}-{}{}", id, part, attempt);
 }
 
 }  // namespace
 
-ScratchFolder::ScratchFolder(const fs::path& folder, const std::string& id, int attempt)
-    : m_path(attempt_path(folder, id, attempt)) {
+ScratchFolder::ScratchFolder(const fs::path& folder, const std::string& id, int attempt, int parts_ended)
+    : m_path(attempt_path(folder, id, attempt, parts_ended)) {
     fs::create_directories(folder);
     // After a disk error there may be files that can be neither read nor removed; that is no reason for this attempt to
     // fail.
     std::error_code not_removed;
-    for (int earlier = 1; earlier <= attempt; ++earlier) fs::remove_all(attempt_path(folder, id, earlier), not_removed);
+    for (int earlier = 1; earlier <= attempt; ++earlier)
+        fs::remove_all(attempt_path(folder, id, earlier, parts_ended), not_removed);
     for (int another = 1; !fs::create_directory(m_path); ++another)
-        m_path = fmt::format("{}.{}", attempt_path(folder, id, attempt).string(), another);
+        m_path = fmt::format("{}.{}", attempt_path(folder, id, attempt, parts_ended).string(), another);
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -7,11 +7,12 @@
 namespace sheer {
 
 /// The folder of one attempt, removed with this object: FOLDER/<id>-<attempt>, with .1, .2, ... appended if something
-/// of that name cannot be removed.
+/// of that name cannot be removed. For later parts of a report of several devices it is FOLDER/<id>-p<part>.<attempt>,
+/// since the worker of the part before may still be removing its own.
 class ScratchFolder {
   public:
     /// Makes it, and removes those of earlier attempts if possible. Throws std::filesystem::filesystem_error.
-    ScratchFolder(const std::filesystem::path& folder, const std::string& id, int attempt);
+    ScratchFolder(const std::filesystem::path& folder, const std::string& id, int attempt, int parts_ended = 0);
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
     ~ScratchFolder();

@@ -24,6 +24,7 @@ void requeue(Job& job, int attempts) {
 
 void end_attempt(Job& job, const JobError& error, Status status, std::int64_t now_ms) {
     if (status == Status::queued) return requeue(job, job.attempts);
+    if (status != Status::done) job.blobs.clear();
     job.record.status = status;
     job.record.stage.clear();
     job.record.finished_ms = now_ms;
@@ -79,6 +80,8 @@ class Queue : public JobQueue {
         job.record.created_ms = m_base.clock();
         job.record.spec = report.spec;
         job.record.spec_sha256 = report.spec_sha256;
+        job.labels = wanted_devices(json::parse(report.spec));
+        job.parts = static_cast<int>(listed_devices(json::parse(report.spec)).size());
         state->jobs.emplace(report.id, std::move(job));
         return {Outcome::created, report.id};
     }
@@ -90,16 +93,26 @@ class Queue : public JobQueue {
             if (job.record.status == Status::running && job.lease_until_ms < now_ms) lose(job);
         for (auto& [id, job] : state->jobs) {
             if (job.record.status != Status::queued || job.not_before_ms > now_ms) continue;
-            const std::string device = wanted_device(json::parse(job.record.spec));
-            if (!device.empty() && device != label) continue;
+            if (!job.labels.empty() && std::ranges::count(job.labels, label) == 0) continue;
             requeue(job, job.attempts + 1);
             job.record.status = Status::running;
+            job.part = job.parts > 0 && !job.labels.empty() ? label : "";
+            const int ended = static_cast<int>(job.ended.size());
+            job.record.progress = parts_progress(ended, job.parts, 0);
             job.owner = owner;
             job.lease_until_ms = now_ms + m_base.rules.lease_ms;
             job.not_before_ms = 0;
             job.lacks_room = false;
-            return Lease{
-                id, owner, job.attempts, job.record.spec, job.record.spec_sha256, job.record.created_ms, job.setbacks};
+            return Lease{id,
+                         owner,
+                         job.attempts,
+                         job.record.spec,
+                         job.record.spec_sha256,
+                         job.record.created_ms,
+                         job.setbacks,
+                         job.part,
+                         job.parts,
+                         ended};
         }
         return std::nullopt;
     }
@@ -134,13 +147,25 @@ class Queue : public JobQueue {
         if (job == nullptr || job->record.status != Status::running) return false;
         count_time(state, *job);
         state->blobs.merge(pictures);
+        state->last_rendered_ms = m_base.clock();
+        if (!job->part.empty()) {
+            job->blobs.insert(job->blobs.end(), finished.blobs.begin(), finished.blobs.end());
+            end_part(*job, {.label = job->part, .report = finished.report.dump()});
+            return true;
+        }
         end_attempt(*job, {}, Status::done, finished.finished_ms);
         job->record.progress = 1;
         job->record.report = finished.report.dump();
         job->blobs = finished.blobs;
         job->died_of.reset();
-        state->last_rendered_ms = m_base.clock();
         return true;
+    }
+
+    std::vector<EndedPart> ended_parts(const Lease& lease) override {
+        const Reading state(*m_base.state);
+        auto parts = state->jobs.at(lease.id).ended;
+        std::ranges::sort(parts, {}, &EndedPart::label);
+        return parts;
     }
 
     void fail(const Lease& lease, const JobError& error, bool retry) override {
@@ -204,8 +229,8 @@ class Queue : public JobQueue {
         const auto found = state->jobs.find(lease.id);
         if (found == state->jobs.end()) return nullptr;
         Job& job = found->second;
-        const bool held =
-            job.record.status == Status::running && job.owner == lease.owner && job.attempts == lease.attempt;
+        const bool held = job.record.status == Status::running && job.owner == lease.owner &&
+                          job.attempts == lease.attempt && static_cast<int>(job.ended.size()) == lease.parts_ended;
         return held ? &job : nullptr;
     }
 
@@ -221,7 +246,23 @@ class Queue : public JobQueue {
         return job->cancel_requested ? LeaseState::cancel_requested : LeaseState::held;
     }
 
-    void end(Job& job, const JobError& error, Status status) const { end_attempt(job, error, status, m_base.clock()); }
+    void end(Job& job, const JobError& error, Status status) const {
+        if (status == Status::failed && !job.part.empty()) return end_part(job, {.label = job.part, .error = error});
+        end_attempt(job, error, status, m_base.clock());
+    }
+
+    void end_part(Job& job, const EndedPart& part) const {
+        job.ended.push_back(part);
+        std::erase(job.labels, part.label);
+        job.part.clear();
+        const bool all_failed = std::ranges::all_of(job.ended, [](const auto& one) { return one.error.has_value(); });
+        if (job.labels.empty() && all_failed)
+            return end_attempt(job, every_part_failed(job.ended), Status::failed, m_base.clock());
+        requeue(job, 0);
+        job.record.progress = parts_progress(static_cast<int>(job.ended.size()), job.parts, 0);
+        job.setbacks = 0;
+        job.died_of.reset();
+    }
 
     void lose(Job& job) const {
         end(job, {"Rendering failed", "The worker died while it rendered this report."},

@@ -23,6 +23,10 @@ struct Job {
     bool cancel_requested = false, lacks_room = false;
     std::optional<int> died_of;
     std::vector<BlobName> blobs;
+    std::vector<std::string> labels;  ///< of the workers that may run it now
+    int parts = 0;
+    std::vector<EndedPart> ended;
+    std::string part;  ///< the one that runs
 };
 
 struct Bytes {

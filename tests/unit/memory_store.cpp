@@ -98,6 +98,12 @@ void room_was_made(const Reading& state) {
         if (job.record.status == Status::queued && job.lacks_room) job.not_before_ms = 0;
 }
 
+bool is_named(const Reading& state, const std::string& sha256) {
+    return std::ranges::any_of(state->jobs, [&](const auto& each) {
+        return std::ranges::count(each.second.blobs, sha256, &BlobName::sha256) > 0;
+    });
+}
+
 class Reports : public ReportArchive {
   public:
     explicit Reports(const Base& base) : m_base(base) {}
@@ -106,7 +112,12 @@ class Reports : public ReportArchive {
         const Reading state(*m_base.state);
         const auto found = state->jobs.find(id);
         if (found == state->jobs.end()) return std::nullopt;
-        return found->second.record;
+        const Job& job = found->second;
+        ReportRecord record = job.record;
+        if (job.parts > 0 && !is_final(record.status))
+            record.parts = part_states(listed_devices(json::parse(record.spec)), job.ended,
+                                       record.status == Status::running ? job.part : "");
+        return record;
     }
 
     ReportPage list(const ListFilter& filter) override {
@@ -147,12 +158,6 @@ class Reports : public ReportArchive {
     }
 
   private:
-    static bool is_named(const Reading& state, const std::string& sha256) {
-        return std::ranges::any_of(state->jobs, [&](const auto& each) {
-            return std::ranges::count(each.second.blobs, sha256, &BlobName::sha256) > 0;
-        });
-    }
-
     const Base& m_base;
 };
 
@@ -163,7 +168,7 @@ class Pictures : public Blobs {
     std::optional<Blob> open(const std::string& sha256) override {
         const Reading state(*m_base.state);
         const auto found = state->blobs.find(sha256);
-        if (found == state->blobs.end()) return std::nullopt;
+        if (found == state->blobs.end() || !is_named(state, sha256)) return std::nullopt;
         return Blob{found->second.media_type, std::make_shared<MemoryContent>(m_base.state, found->second.bytes)};
     }
 

@@ -118,6 +118,19 @@ TEST_P(PostgresStoreTest, AStoreOfANewerVersionIsRefused) {
                                                  postgres::schema_version() + 1, postgres::schema_version())));
 }
 
+TEST_P(PostgresStoreTest, AJobOfTheVersionBeforePartsKeepsItsWish) {
+    const std::string wish = submit("on a GPU", {{"device", "nvidia"}}), any = submit("anywhere");
+    place().run(
+        "DROP TABLE sheer.parts; ALTER TABLE sheer.jobs DROP COLUMN labels, DROP COLUMN parts, DROP COLUMN "
+        "parts_ended, DROP COLUMN part, ADD COLUMN label text NOT NULL DEFAULT ''");
+    place().run("UPDATE sheer.jobs SET label = 'nvidia' WHERE report_id = '" + wish + "'");
+    place().run("UPDATE sheer.store SET version = 2");
+    const auto store = m_place->open(m_rules, m_clock);
+    EXPECT_EQ(store->queue().lease("a", "intel")->id, any);
+    EXPECT_FALSE(store->queue().lease("b", "intel"));
+    EXPECT_EQ(store->queue().lease("c", "nvidia")->id, wish);
+}
+
 TEST_P(PostgresStoreTest, ASchemaOfAnotherProgramIsRefused) {
     place().run("DROP SCHEMA sheer CASCADE; CREATE SCHEMA sheer; CREATE TABLE sheer.reports (id text)");
     EXPECT_THAT(refusal(), HasSubstr("of another program"));

@@ -133,6 +133,22 @@ TEST_P(OldArchiveTest, IsBroughtUpToDate) {
 
 INSTANTIATE_TEST_SUITE_P(EveryVersion, OldArchiveTest, testing::Range(1, 5));
 
+TEST_F(SqliteStoreTest, AJobOfTheVersionBeforePartsKeepsItsWish) {
+    const std::string wish = submit("on a GPU", {{"device", "nvidia"}}), any = submit("anywhere");
+    {
+        SQLite::Database database(m_data.database().string(), SQLite::OPEN_READWRITE);
+        database.exec("DROP TRIGGER parts_over; DROP TABLE parts");
+        for (const char* column : {"labels", "parts", "parts_ended", "part"})
+            database.exec(std::string("ALTER TABLE jobs DROP COLUMN ") + column);
+        database.exec("PRAGMA user_version = 12");
+    }
+    SqliteStore store(m_data.root, m_rules, m_clock);
+    EXPECT_EQ(store.queue().lease("a", "intel")->id, any);
+    EXPECT_FALSE(store.queue().lease("b", "intel"));
+    EXPECT_EQ(store.queue().lease("c", "nvidia")->id, wish);
+    EXPECT_TRUE(store.care().check(false).findings.empty());
+}
+
 TEST_F(SqliteStoreTest, FilesAreRemovedWithTheLastReportThatNamesThem) {
     const std::string first = make_done("first", "shared"), second = make_done("second", "shared");
     EXPECT_EQ(pictures(), 1);

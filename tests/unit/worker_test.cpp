@@ -97,6 +97,27 @@ TEST_F(WorkerTest, WhatReadsFilesOfOthersGetsACopyOfTheShaders) {
     EXPECT_TRUE(std::filesystem::exists(m_options.shaders / "ab" / "known"));
 }
 
+/// The renderer, which is asked to join the parts at last, answers what it was asked.
+TEST_F(WorkerTest, APartIsRenderedWithItsLabelAndJoinedByTheRenderer) {
+    const std::string id = submit("parts", {{"device", {"a", "b"}}, {"checks", json::array()}});
+    const std::string joins =
+        R"(if [ "$1" = join-stored ]; then question=$(cat /dev/stdin); case "$question" in *'"label":"b"'*) ;; *) exit 9;; esac; )"
+        R"(printf '{"report": {"verdict": "none", "devices": [{"label": "a", "status": "done"}]}}\n'; exit 0; fi; )";
+    for (const char* label : {"a", "b"}) {
+        m_options.label = label;
+        run_with(joins + R"(grep -q '"device":")" + label + R"("' "$2" || exit 9; )" +
+                 leave_report("p", sha256_hex("p")));
+        EXPECT_EQ(status(id), Status::queued);
+    }
+    m_options.label = "c";
+    run_with(joins);
+    ASSERT_EQ(status(id), Status::done);
+    const json report = json::parse(m_reports.find(id)->report);
+    EXPECT_EQ(report["id"], id);
+    EXPECT_EQ(report["spec"]["device"], json({"a", "b"}));
+    EXPECT_EQ(report["devices"][0]["label"], "a");
+}
+
 TEST_F(WorkerTest, ARendererThatDiesIsTriedOnceMore) {
     const std::string id = submit();
     run_with("kill -SEGV $$");

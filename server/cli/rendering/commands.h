@@ -23,6 +23,7 @@ void add_check_asset(CLI::App& app, int& exit_code);
 void add_check_shading(CLI::App& app, int& exit_code);
 void add_diff_stored(CLI::App& app, int& exit_code);
 void add_against_stored(CLI::App& app, int& exit_code);
+void add_join_stored(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 
 /// All of them: the commands that draw or decode pictures.

@@ -6,6 +6,7 @@
 
 #include "renderer/core/files.h"
 #include "renderer/diff/against.h"
+#include "renderer/diff/join.h"
 #include "renderer/files/data_uri.h"
 #include "renderer/files/report_document.h"
 #include "renderer/params/json_text.h"
@@ -73,6 +74,18 @@ json compare_against_stored(const json& question, const std::string& data, const
     return {{"report", to_document(report)}};
 }
 
+/// The parts of a report of several devices, joined.
+json join_stored(const json& question, const std::string& data) {
+    std::vector<RenderedPart> parts;
+    for (const json& one : question.at("parts")) {
+        RenderedPart& part = parts.emplace_back();
+        part.label = one.at("label");
+        part.reason = one.at("reason");
+        if (!one.at("report").is_null()) part.report = read_report(one["report"]);
+    }
+    return {{"report", to_document(join_parts(question.at("spec"), parts, stored_pictures(data)))}};
+}
+
 void answer_question(const std::string& command, int& exit_code, const SandboxOption& sandbox, const OpenFiles& files,
                      const std::function<json(const json& question)>& answer) {
     try {
@@ -97,6 +110,18 @@ void add_diff_stored(CLI::App& app, int& exit_code) {
     command->callback([data, sandbox, &exit_code] {
         answer_question("diff-stored", exit_code, *sandbox, stored_files(*data),
                         [&](const json& question) { return compare_stored(question, *data); });
+    });
+}
+
+void add_join_stored(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("join-stored", "Join the parts of a report for a worker")->group("");
+    auto data = std::make_shared<std::string>();
+    auto sandbox = std::make_shared<SandboxOption>();
+    command->add_option("--data", *data, "The service's folder with the pictures")->required();
+    sandbox->add_to(*command);
+    command->callback([data, sandbox, &exit_code] {
+        answer_question("join-stored", exit_code, *sandbox, stored_files(*data),
+                        [&](const json& question) { return join_stored(question, *data); });
     });
 }
 
