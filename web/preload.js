@@ -2,7 +2,7 @@
 // classic script, so that it runs before the modules; tests/web/preload.test.mjs compares the lists with the imports.
 (() => {
   const REPORT = [
-    "advice answer_card api baselines_view chart checks_view chosen color_bar columns error_panel exr",
+    "across_devices advice answer_card api baselines_view chart checks_view chosen color_bar columns error_panel exr",
     "format frontier_view image_viewer layer magma menu notes paint patience picture_data picture_pane",
     "pixel_view report_actions report_head report_page report_pictures report_view result_tables scales",
     "spec_model suite_view sweep sweep_grid sweep_view timing_strip value_table view_state viewer_keys",

@@ -78,7 +78,7 @@ export function report_head(report, actions) {
   const summary = [
     subject_text(spec),
     runs.length > 1 ? `${runs.length} points` : point_text(runs[0]?.point, spec),
-    device.renderer,
+    report.devices ? `${report.devices.length} devices` : device.renderer,
     when(report.finished_at),
   ];
   return el(

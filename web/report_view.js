@@ -1,4 +1,5 @@
 // A finished report as a part of a page. Both the served page and the self-contained file use it.
+import { across_section } from "./across_devices.js";
 import { AnswerCard } from "./answer_card.js";
 import { changes_section, checks_section } from "./checks_view.js";
 import { el, set_children } from "./dom.js";
@@ -212,6 +213,7 @@ export function report_view(
     checks_section(report),
     runs.length === 1 ? changes_section(runs[0]) : null,
     suite_section(report, options),
+    across_section(report),
     sweep ? [sweep.element, sweep.point_choice] : null,
     place,
     report_details(report),

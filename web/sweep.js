@@ -21,7 +21,7 @@ export function field_name(pointer, spec = {}) {
   const [section, ...rest] = parts_of(pointer);
   const method = section === "methods" ? spec.methods?.[Number(rest[0])] : null;
   if (method) rest[0] = method.label ?? method.id ?? method;
-  return rest.join(" ").replaceAll("_", " ") || pointer;
+  return rest.join(" ").replaceAll("_", " ") || section || pointer;
 }
 
 const LONG_TEXT = 40;
@@ -33,9 +33,15 @@ function stop_text(value, index) {
   return is_code ? `GLSL ${index + 1}` : short_value(value);
 }
 
+/** The axes as specs write them; several devices are one, the slowest. */
+function given_axes(spec) {
+  const sweep = Array.isArray(spec?.sweep) ? spec.sweep : [];
+  return Array.isArray(spec?.device) ? [{ pointer: "/device", values: spec.device }, ...sweep] : sweep;
+}
+
 /** The place of a value among the stops of the axis that sets its field. */
 function stop_index(pointer, value, spec) {
-  for (const { points, pointer: single, values } of spec.sweep ?? []) {
+  for (const { points, pointer: single, values } of given_axes(spec)) {
     const stops = points?.map((point) => point[pointer]) ?? (single === pointer ? values : []);
     const index = stops.findIndex((stop) => same(stop, value));
     if (index >= 0) return index;
@@ -68,12 +74,12 @@ function values_at(point, pointers, index) {
 }
 
 /**
- * The axes of `spec.sweep`: {name, field, fields, points, stops}. `points` are objects of values by pointer; each stop is
+ * The axes of `spec.sweep`, after one for several devices: {name, field, fields, points, stops}. `points` are objects of
+ * values by pointer; each stop is
  * {value, text}; `value` is the value of the field, `field` its pointer; both are undefined if points set several.
  */
 export function axes_of(spec) {
-  const sweep = Array.isArray(spec?.sweep) ? spec.sweep : [];
-  return sweep.map((axis) => {
+  return given_axes(spec).map((axis) => {
     const points = axis.points ?? axis.values.map((value) => ({ [axis.pointer]: value }));
     const fields = [...new Set(points.flatMap((point) => Object.keys(point)))];
     const named = alike(fields, spec);

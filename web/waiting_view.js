@@ -1,4 +1,5 @@
 // A report that is queued or running: its place in the queue, how far it is, and how long it will take.
+import { devices_text } from "./across_devices.js";
 import { delete_report, follow, get_early_pictures, get_workers, list_reports } from "./api.js";
 import { el, set_children } from "./dom.js";
 import { note_list } from "./notes.js";
@@ -53,6 +54,7 @@ class Waiting {
   #signal;
   #bar = el("progress", { max: "1", "aria-label": "Progress" });
   #percent = el("span", { class: "percent" });
+  #devices = el("p", { class: "muted" });
   #stage = el("p", { class: "stage-text", role: "status" });
   #left = el("p", { class: "muted time-left" });
   #connection = el("p", { class: "notice warning", role: "alert", hidden: true }, "Connection lost, trying again…");
@@ -74,6 +76,7 @@ class Waiting {
       el("h1", {}, report.spec?.title || "Untitled comparison"),
       el("p", { class: "muted" }, [subject_text(report.spec), methods].filter(Boolean).join(" — ")),
       el("div", { class: "progress-line" }, this.#bar, this.#percent),
+      this.#devices,
       this.#stage,
       this.#left,
       note_list(report.notes ?? []),
@@ -101,12 +104,13 @@ class Waiting {
     return button;
   }
 
-  update({ progress = 0, stage, status }) {
+  update({ progress = 0, stage, status, devices }) {
     this.#status = status;
     this.#bar.value = progress;
     this.#percent.textContent = `${Math.round(progress * 100)} %`;
     const text = stage || (status === "queued" ? "Waiting for a worker" : "Rendering");
     if (text !== this.#stage.textContent) this.#stage.textContent = text;
+    this.#devices.textContent = devices_text(devices);
     if (status === "running") this.#show_left(progress);
   }
 
