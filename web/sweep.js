@@ -75,8 +75,8 @@ function values_at(point, pointers, index) {
 
 /**
  * The axes of `spec.sweep`, after one for several devices: {name, field, fields, points, stops}. `points` are objects of
- * values by pointer; each stop is
- * {value, text}; `value` is the value of the field, `field` its pointer; both are undefined if points set several.
+ * values by pointer; each stop is {value, text}; `value` is the value of the field, `field` its pointer; both are undefined
+ * if points set several.
  */
 export function axes_of(spec) {
   return given_axes(spec).map((axis) => {

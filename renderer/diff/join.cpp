@@ -64,7 +64,7 @@ class Joining {
         m_report.qualification = first->report->qualification;
         m_report.spec = m_spec.normalised;
         for (const RenderedPart& part : parts) part.report ? add(part.label, *part.report) : add_failed(part);
-        m_report.growth = growth_of(m_report.runs);
+        m_report.growth = growth_of(m_spec.normalised.value("sweep", nlohmann::json::array()), m_report.runs);
         compare_devices();
         judge(m_report);
         return std::move(m_report);
