@@ -8,14 +8,13 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
-#include <charconv>
-#include <ctime>
 
 #include "server/http/application.h"
 #include "server/http/pool_work.h"
 #include "server/http/problem.h"
+#include "server/http/request_body.h"
 #include "server/http/request_head.h"
-#include "server/http/spooled_body.h"
+#include "server/http/response_writer.h"
 
 namespace sheer::http {
 
@@ -36,21 +35,8 @@ constexpr std::chrono::seconds slow_header{1}, slow_body{10};
 // A new connection has not had time to send a request.
 constexpr std::chrono::milliseconds newcomer_time{250};
 constexpr std::string_view sign_of_life = ":\n\n";
-// The part of a body that is read and sent at a time.
-constexpr std::uint64_t piece_bytes = 64 << 10;
-// A longer body goes to a file until it is complete.
-constexpr std::uint64_t longest_body_in_memory = 1 << 20;
 // For a probe's request on a connection beyond the limit.
 constexpr std::chrono::seconds spare_timeout{2};
-
-/// RFC 9110, 5.6.7.
-std::string http_date() {
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    std::array<char, 40> text;
-    return {text.data(), std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc)};
-}
 
 Request request_without_body(const bhttp::request<bhttp::empty_body>& message) {
     Request request;
@@ -108,8 +94,6 @@ class TcpSession : public Session {
     bool is_over() const override { return m_over; }
 
   private:
-    using HeadParser = bhttp::request_parser<bhttp::empty_body>;
-
     void close() {
         m_over = true;
         m_dispensable_from.reset();
@@ -134,29 +118,32 @@ class TcpSession : public Session {
         if (auto wrong = check_head(request, m_version)) co_return co_await reject(std::move(wrong));
         const Handling handling = m_context.handling(request.method, request.target);
         if (m_seat == Seat::spare && !handling.is_probe) co_return co_await reject(too_many_connections());
-        std::optional<SpooledBody> spooled;
+        ReceivedBody body;
         std::optional<Response> wrong_body;
         try {
             const beast::error_code body_error =
-                co_await read_body(parser, handling.body_bytes.value_or(m_limits.body_bytes), request.body, spooled);
+                co_await read_body(parser, handling.body_bytes.value_or(m_limits.body_bytes), body);
             if (body_error) co_return co_await reject(problem_of(body_error));
         } catch (const std::system_error& error) {
             wrong_body = no_room_for_body(request, error);
         }
-        if (!wrong_body && spooled && m_context.spooled_bytes > m_limits.spool_bytes) wrong_body = too_many_bodies();
+        if (!wrong_body && body.spooled && m_context.spooled_bytes > m_limits.spool_bytes)
+            wrong_body = too_many_bodies();
         if (wrong_body) {
-            spooled.reset();
+            body.spooled.reset();
             co_return co_await reject(std::move(wrong_body));
         }
+        request.body = std::move(body.text);
         m_dispensable_from.reset();
-        Answer answer = co_await make_answer(std::move(request), handling.lane, spooled);
-        spooled.reset();
+        Answer answer = co_await make_answer(std::move(request), handling, body.spooled);
+        body.spooled.reset();
         co_return co_await write_answer(std::move(answer));
     }
 
-    asio::awaitable<Answer> make_answer(Request request, Lane lane, const std::optional<SpooledBody>& spooled) {
-        if (lane == Lane::at_once && !spooled) co_return m_context.answer(std::move(request));
-        asio::thread_pool& pool = lane == Lane::specs ? m_context.spec_pool : m_context.pool;
+    asio::awaitable<Answer> make_answer(Request request, const Handling& handling,
+                                        const std::optional<SpooledBody>& spooled) {
+        if (handling.lane == Lane::at_once && !spooled) co_return m_context.answer(std::move(request));
+        asio::thread_pool& pool = handling.lane == Lane::specs ? m_context.spec_pool : m_context.pool;
         co_return co_await on_pool(pool, [&] {
             try {
                 if (spooled) request.body = spooled->text();
@@ -165,17 +152,6 @@ class TcpSession : public Session {
             }
             return m_context.answer(std::move(request));
         });
-    }
-
-    static Response no_room_for_body(const Request& request, const std::system_error& error) {
-        spdlog::error("{} {}: {}", request.method, request.target, error.what());
-        return problem(507, "There is no room for the body.");
-    }
-
-    static Response too_many_bodies() {
-        Response response = problem(503, "Too many long bodies are on their way; try again later.");
-        response.headers.add("Retry-After", "10");
-        return response;
     }
 
     static Response too_many_connections() {
@@ -211,42 +187,21 @@ class TcpSession : public Session {
         co_return error;
     }
 
-    /// Into `body`, or into a file if it is long. Throws std::system_error.
-    asio::awaitable<beast::error_code> read_body(HeadParser& parser, std::uint64_t limit, std::string& body,
-                                                 std::optional<SpooledBody>& spooled) {
+    /// Throws std::system_error.
+    asio::awaitable<beast::error_code> read_body(HeadParser& parser, std::uint64_t limit, ReceivedBody& body) {
         const auto length = parser.content_length();
         if (length && *length > limit) co_return bhttp::error::body_limit;
         if (parser.is_done()) co_return beast::error_code();
         parser.body_limit(limit);
         if (beast::iequals(parser.get()[bhttp::field::expect], "100-continue")) {
             const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
-            const bool sent = co_await write_text(go_on);
+            const bool sent = co_await m_writer.write_text(go_on);
             if (!sent) co_return bhttp::error::partial_message;
         }
         m_dispensable_from = SteadyClock::now() + slow_body;
         m_stream.expires_after(m_limits.body_timeout);
-        if (length.value_or(parser.chunked() ? limit : 0) > longest_body_in_memory) {
-            spooled.emplace(m_context.spool, m_context.spooled_bytes);
-            co_return co_await read_long_body(parser, *spooled);
-        }
-        bhttp::request_parser<bhttp::string_body> whole(std::move(parser));
-        auto [error, count] = co_await bhttp::async_read(m_stream, m_buffer, whole, token);
-        body = std::move(whole.get().body());
-        co_return error;
-    }
-
-    /// Ends early, without an error, if all long bodies together become too many.
-    asio::awaitable<beast::error_code> read_long_body(HeadParser& parser, SpooledBody& spooled) {
-        bhttp::request_parser<bhttp::buffer_body> pieces(std::move(parser));
-        std::string piece(piece_bytes, '\0');
-        while (!pieces.is_done() && m_context.spooled_bytes <= m_limits.spool_bytes) {
-            pieces.get().body().data = piece.data();
-            pieces.get().body().size = piece.size();
-            auto [error, count] = co_await bhttp::async_read(m_stream, m_buffer, pieces, token);
-            if (error && error != bhttp::error::need_buffer) co_return error;
-            spooled.append(std::string_view(piece).substr(0, piece.size() - pieces.get().body().size));
-        }
-        co_return beast::error_code();
+        const BodyRoute route{m_stream, m_buffer, m_context.spool, m_context.spooled_bytes, m_limits.spool_bytes};
+        co_return co_await receive_body(route, parser, limit, body);
     }
 
     /// Sends the problem and ends the connection so that the sender can read it: closing with unread data would reset
@@ -298,7 +253,7 @@ class TcpSession : public Session {
         while (true) {
             const bool is_over = co_await work.wait(next_heartbeat);
             if (is_over) co_return work.take();
-            const bool sent = co_await write_text(sign_of_life);
+            const bool sent = co_await m_writer.write_text(sign_of_life);
             if (!sent) co_return std::nullopt;
             next_heartbeat = SteadyClock::now() + m_limits.event_heartbeat;
         }
@@ -308,7 +263,7 @@ class TcpSession : public Session {
         const Lasting lasting(m_context.lasting, m_client);
         if (!lasting.is_granted()) co_return co_await write_response(too_many_streams());
         m_close = true;
-        const bool begun = co_await write_stream_head(given.head);
+        const bool begun = co_await m_writer.write_endless(given.head);
         if (!begun || m_head) co_return false;
         const auto stream = std::make_shared<EventStream>(std::move(given));
         auto next_heartbeat = SteadyClock::now() + m_limits.event_heartbeat;
@@ -319,7 +274,7 @@ class TcpSession : public Session {
             EventChunk& chunk = *made;
             if (chunk.text.empty() && SteadyClock::now() >= next_heartbeat) chunk.text = sign_of_life;
             if (!chunk.text.empty()) {
-                const bool sent = co_await write_text(chunk.text);
+                const bool sent = co_await m_writer.write_text(chunk.text);
                 if (!sent) co_return false;
                 next_heartbeat = SteadyClock::now() + m_limits.event_heartbeat;
             }
@@ -353,94 +308,11 @@ class TcpSession : public Session {
         co_return !error && m_read_ahead;
     }
 
-    template <typename Body>
-    void fill_head(bhttp::response<Body>& message, const Response& response) {
-        message.result(static_cast<unsigned>(response.status));
-        message.reason(status_phrase(response.status));
-        message.version(11);
-        for (const auto& [name, value] : response.headers.fields()) message.insert(name, value);
-        message.set(bhttp::field::date, http_date());
-        message.keep_alive(!m_close && !m_context.stopping && m_version == 11);
-    }
-
     asio::awaitable<bool> write_response(Response response) {
         m_read_ahead = false;
-        const auto* content = std::get_if<ContentPtr>(&response.body);
-        if (content) co_return co_await write_content(response, **content);
-        std::string& text = std::get<std::string>(response.body);
-        const bool has_body = response.status != 204 && response.status != 304;
-        if (m_head || !has_body)
-            co_return co_await write_empty(response, has_body ? std::optional(text.size()) : std::nullopt);
-        bhttp::response<bhttp::string_body> message;
-        fill_head(message, response);
-        message.body() = std::move(text);
-        message.prepare_payload();
-        co_return co_await write_message(message);
-    }
-
-    /// Reading from a store may take a long time, so the pool reads one piece at a time.
-    asio::awaitable<bool> write_content(const Response& response, const Content& content) {
-        const std::uint64_t size = content.size_bytes();
-        bhttp::response<bhttp::empty_body> message;
-        fill_head(message, response);
-        message.content_length(size);
-        if (m_head) co_return co_await write_message(message);
-        const bool begun = co_await send(message);
-        if (!begun) co_return false;
-        std::string piece;
-        for (std::uint64_t done = 0; done < size; done += piece.size()) {
-            piece.resize(std::min<std::uint64_t>(size - done, piece_bytes));
-            co_await on_pool(m_context.pool, [&] { content.read(done, piece); });
-            const bool sent = co_await write_text(piece);
-            if (!sent) co_return false;
-        }
-        co_return message.keep_alive();
-    }
-
-    /// A head without a body; `length` is the length that the body would have.
-    asio::awaitable<bool> write_empty(const Response& response, std::optional<std::uint64_t> length) {
-        bhttp::response<bhttp::empty_body> message;
-        fill_head(message, response);
-        if (length) message.content_length(*length);
-        co_return co_await write_message(message);
-    }
-
-    asio::awaitable<bool> write_stream_head(const Response& head) {
-        bhttp::response<bhttp::empty_body> message;
-        fill_head(message, head);
-        co_return co_await send(message);
-    }
-
-    /// Returns whether the connection can be used again.
-    template <typename Body>
-    asio::awaitable<bool> write_message(bhttp::response<Body>& message) {
-        const bool sent = co_await send(message);
-        co_return sent&& message.keep_alive();
-    }
-
-    template <typename Body>
-    asio::awaitable<bool> send(bhttp::response<Body>& message) {
-        bhttp::response_serializer<Body> serializer(message);
-        // Others have their turn in between.
-        serializer.limit(piece_bytes);
-        while (!serializer.is_done()) {
-            m_stream.expires_after(m_limits.write_timeout);
-            auto [error, count] = co_await bhttp::async_write_some(m_stream, serializer, token);
-            if (error) co_return false;
-        }
-        m_stream.expires_never();
-        co_return true;
-    }
-
-    asio::awaitable<bool> write_text(std::string_view text) {
-        while (!text.empty()) {
-            m_stream.expires_after(m_limits.write_timeout);
-            auto [error, count] = co_await m_stream.async_write_some(asio::buffer(text, piece_bytes), token);
-            if (error) co_return false;
-            text.remove_prefix(count);
-        }
-        m_stream.expires_never();
-        co_return true;
+        const bool keep_alive = !m_close && !m_context.stopping && m_version == 11;
+        const bool sent = co_await m_writer.write(std::move(response), m_head, keep_alive);
+        co_return sent&& keep_alive;
     }
 
     SessionContext& m_context;
@@ -451,6 +323,7 @@ class TcpSession : public Session {
     std::optional<SteadyTime> m_dispensable_from;
     bool m_over = false;
     beast::tcp_stream m_stream;
+    ResponseWriter m_writer{m_stream, m_context.pool, m_limits.write_timeout};
     beast::flat_buffer m_buffer;
     unsigned m_version = 11;
     bool m_idle = false;
