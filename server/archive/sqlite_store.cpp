@@ -10,6 +10,7 @@
 #include "server/archive/sqlite_readiness.h"
 #include "server/archive/sqlite_reports.h"
 #include "server/archive/sqlite_trends.h"
+#include "server/archive/sqlite_version.h"
 #include "server/archive/sqlite_watch.h"
 
 namespace sheer {
@@ -32,6 +33,7 @@ struct SqliteStore::Parts {
     SqliteWorkers workers{archive};
     SqliteUsage usage{archive};
     SqliteCare care{archive, blobs, folder};
+    SqliteVersion version{folder};
 };
 
 SqliteStore::SqliteStore(const std::filesystem::path& folder, LeaseRules rules, ClockMs clock)
@@ -77,6 +79,10 @@ Usage& SqliteStore::usage() {
 }
 std::unique_ptr<ChangeWatch> SqliteStore::watch() {
     return std::make_unique<SqliteWatch>(m_parts->folder);
+}
+
+std::optional<std::int64_t> SqliteStore::version() {
+    return m_parts->version.read();
 }
 
 }  // namespace sheer

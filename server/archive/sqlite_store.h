@@ -31,6 +31,7 @@ class SqliteStore : public Store {
     Workers& workers() override;
     Usage& usage() override;
     std::unique_ptr<ChangeWatch> watch() override;
+    std::optional<std::int64_t> version() override;
     std::unique_ptr<ChangeWatch> watch_jobs() override { return nullptr; }
     void bring_here(const std::string&) override {}
 

@@ -148,6 +148,7 @@ void serve(const ServeOptions& options) {
         {.answer = [&](http::Request request) { return observer.answer(application, std::move(request)); },
          .handling = [&](std::string_view method,
                          std::string_view target) { return application.handling(method, target); },
+         .known = [&](const http::Request& request) { return observer.known(application, request); },
          .changes = store.watch(),
          .reload = [&options, &running] { reload(options, running); },
          .alive = ServiceManager::alive,

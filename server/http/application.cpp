@@ -104,6 +104,7 @@ void check_body_coding(const Request& request) {
 /// Errors are problems, whatever Accept says.
 void check_accept(const Route& route, const Request& request) {
     const auto accept = request.headers.joined("Accept");
+    if (!accept) return;
     std::vector<std::string> types;
     for (const Reply& reply : route.replies)
         if (reply.status < 300 && !reply.media_type.empty()) types.push_back(reply.media_type);
@@ -123,17 +124,34 @@ Handling Application::handling(std::string_view method, std::string_view target)
     target = m_prefix.stripped(target);
     const Match match = m_router.match(method, target.substr(0, target.find('?')));
     if (match.route == nullptr) return {};
-    Handling handling{.lane = match.route->lane, .is_probe = match.route->is_probe};
+    Handling handling{
+        .lane = match.route->lane, .is_probe = match.route->is_probe, .may_be_known = match.route->known != nullptr};
     if (match.route->body_bytes != 0) handling.body_bytes = match.route->body_bytes;
     return handling;
 }
 
-Response Application::sent(Response response, const Request& request) const {
+Response Application::prepared(Response response, const Request& request) const {
     const std::string etag = response.headers.find("ETag").value_or("");
     response = m_prefix.put_before(std::move(response));
     choose_coding(response, request);
     m_guard.permit(request, response.headers);
-    return encoded(finished(unless_known(std::move(response), request, etag)), request.target, *m_packed);
+    return finished(unless_known(std::move(response), request, etag));
+}
+
+Response Application::sent(Response response, const Request& request) const {
+    return encoded(prepared(std::move(response), request), request.target, *m_packed);
+}
+
+std::optional<Response> Application::known(Request request) const {
+    request.target = std::string(m_prefix.stripped(request.target));
+    request = without_coding(std::move(request));
+    auto response = caught<std::optional<Response>>(request, [&]() -> std::optional<Response> {
+        auto found = admitted(request);
+        if (auto* refusal = std::get_if<Response>(&found)) return std::move(*refusal);
+        return std::get<const Route*>(found)->known(request);
+    });
+    if (!response) return std::nullopt;
+    return encoded_if_known(prepared(std::move(*response), request), request.target, *m_packed);
 }
 
 Answer Application::answer(Request request) const {
@@ -159,22 +177,22 @@ Answer Application::answer(Request request) const {
     return answer;
 }
 
-Answer Application::handle(Request& request) const {
+std::variant<const Route*, Response> Application::admitted(Request& request) const {
     const std::string_view target = request.target;
     const std::size_t question = target.find('?');
     Match match = m_router.match(request.method, target.substr(0, question));
     if (match.route == nullptr || !match.route->is_probe)
         if (auto refusal = m_guard.refusal(request)) return *refusal;
     if (match.allowed.empty()) throw Problem(404, "There is nothing at this address.");
-    const std::string allow = fmt::format("{}", fmt::join(match.allowed, ", "));
+    const auto allow = [&match] { return fmt::format("{}", fmt::join(match.allowed, ", ")); };
     if (request.method == "OPTIONS") {
         Response response{.status = 204, .headers = {}, .body = {}};
-        response.headers.add("Allow", allow);
+        response.headers.add("Allow", allow());
         return response;
     }
     if (!match.route)
-        throw Problem(405, fmt::format("{} is not allowed here; allowed are {}.", request.method, allow))
-            .with("Allow", allow);
+        throw Problem(405, fmt::format("{} is not allowed here; allowed are {}.", request.method, allow()))
+            .with("Allow", allow());
     if (auto refusal = m_access.refusal(request, match.route->needed_scope())) return *refusal;
     if (!is_safe(request.method)) log_change(m_access.token_of(request), request);
     request.path_values = std::move(match.path_values);
@@ -186,7 +204,13 @@ Answer Application::handle(Request& request) const {
     if (!is_safe(request.method) &&
         judge_preconditions(request, match.route->etag ? match.route->etag(request) : "") != Precondition::met)
         throw Problem(412, "If-Match or If-None-Match is not satisfied; nothing was done.");
-    return match.route->handle(request);
+    return match.route;
+}
+
+Answer Application::handle(Request& request) const {
+    auto found = admitted(request);
+    if (auto* response = std::get_if<Response>(&found)) return std::move(*response);
+    return std::get<const Route*>(found)->handle(request);
 }
 
 Response finished(Response response) {

@@ -18,13 +18,19 @@ class Application {
         : m_guard(std::move(guard)), m_router(std::move(router)), m_prefix(std::move(prefix)), m_access(access) {}
     /// Never throws: errors become problems. HEAD is answered like GET; the sender leaves out the body.
     Answer answer(Request request) const;
+    /// The same answer if it is in memory, and nothing otherwise. Does not wait.
+    std::optional<Response> known(Request request) const;
     /// The pattern of the route of such a request; "" for none.
     std::string pattern_of(std::string_view method, std::string_view target) const;
     /// How to treat a request with this method and target before its body has arrived.
     Handling handling(std::string_view method, std::string_view target) const;
 
   private:
+    /// The route of the request, which then has its values and its query; or the response instead. Throws Problem.
+    std::variant<const Route*, Response> admitted(Request& request) const;
     Answer handle(Request& request) const;
+    /// With the headers for this request, and without its body if the sender has that.
+    Response prepared(Response response, const Request& request) const;
     /// In the form in which its sender wants it.
     Response sent(Response response, const Request& request) const;
 

@@ -2,25 +2,29 @@
 
 namespace sheer::http {
 
-BodyCache::Body BodyCache::find(const std::string& key) {
+BodyCache::KeptPtr BodyCache::find(const std::string& key) {
     const std::lock_guard lock(m_mutex);
     const auto found = m_by_key.find(key);
     if (found == m_by_key.end()) return nullptr;
     m_entries.splice(m_entries.begin(), m_entries, found->second);
-    return found->second->body;
+    return found->second->kept;
 }
 
-void BodyCache::keep(const std::string& key, const std::string& body) {
-    if (body.size() > m_max_bytes) return;
-    auto copy = std::make_shared<const std::string>(body);
+void BodyCache::keep(const std::string& key, Kept kept) {
+    const std::size_t bytes = kept.body.size();
+    if (bytes > m_max_bytes) return;
+    auto entry = std::make_shared<const Kept>(std::move(kept));
     const std::lock_guard lock(m_mutex);
-    if (m_by_key.contains(key)) return;
-    m_entries.push_front({key, std::move(copy)});
+    if (const auto known = m_by_key.find(key); known != m_by_key.end()) forget(known->second);
+    m_entries.push_front({key, std::move(entry)});
     m_by_key[key] = m_entries.begin();
-    for (m_bytes += body.size(); m_bytes > m_max_bytes; m_entries.pop_back()) {
-        m_bytes -= m_entries.back().body->size();
-        m_by_key.erase(m_entries.back().key);
-    }
+    for (m_bytes += bytes; m_bytes > m_max_bytes;) forget(std::prev(m_entries.end()));
+}
+
+void BodyCache::forget(std::list<Entry>::iterator entry) {
+    m_bytes -= entry->kept->body.size();
+    m_by_key.erase(entry->key);
+    m_entries.erase(entry);
 }
 
 }  // namespace sheer::http

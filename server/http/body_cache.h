@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <map>
 #include <memory>
@@ -12,6 +13,13 @@ namespace sheer::http {
 /// Thread-safe.
 class BodyCache {
   public:
+    struct Kept {
+        std::string body;
+        std::string etag = {};
+        std::int64_t version = 0;  ///< of the store from which it was read
+    };
+    using KeptPtr = std::shared_ptr<const Kept>;
+
     /// A longer body than `max_bytes` is not kept.
     explicit BodyCache(std::size_t max_bytes) : m_max_bytes(max_bytes) {}
 
@@ -19,21 +27,24 @@ class BodyCache {
     /// the same time all make it. Throws what `make` throws.
     template <typename Make>
     std::string get(const std::string& key, const Make& make) {
-        if (const auto known = find(key)) return *known;
+        if (const auto known = find(key)) return known->body;
         std::string body = make();
-        keep(key, body);
+        keep(key, {body});
         return body;
     }
 
+    /// Null if it is not known.
+    KeptPtr find(const std::string& key);
+    /// In place of what is known by `key`.
+    void keep(const std::string& key, Kept kept);
+
   private:
-    using Body = std::shared_ptr<const std::string>;
     struct Entry {
         std::string key;
-        Body body;
+        KeptPtr kept;
     };
 
-    Body find(const std::string& key);
-    void keep(const std::string& key, const std::string& body);
+    void forget(std::list<Entry>::iterator entry);
 
     const std::size_t m_max_bytes;
     std::mutex m_mutex;  ///< guards what follows

@@ -28,7 +28,28 @@ ReportRecord found_report(Service& service, const Request& request) {
     return found_report(service.store, request);
 }
 
-constexpr std::size_t kept_pages_bytes = 32 << 20;
+constexpr std::size_t kept_pages_bytes = 32 << 20, kept_reports_bytes = 16 << 20;
+// A longer report is sent by the pool's threads, so that the others do not wait while it is copied.
+constexpr std::size_t longest_kept_report_bytes = 256 << 10;
+
+Answer get_report(Service& service, BodyCache& reports, const Request& request) {
+    // Before the report is read: what is written meanwhile makes it another one.
+    const std::optional<std::int64_t> version = service.store.version();
+    const ReportRecord record = found_report(service, request);
+    Response response = report_response(200, record, queue_notes(service, record));
+    const auto& text = std::get<std::string>(response.body);
+    if (version && record.status == Status::done && text.size() <= longest_kept_report_bytes)
+        reports.keep(record.id, {text, report_etag(record), *version});
+    return response;
+}
+
+/// A done report never changes, but any process may delete it: so it is known only until something is written to the
+/// store, and its seal was checked when it was read.
+std::optional<Response> known_report(Service& service, BodyCache& reports, const Request& request) {
+    const auto kept = reports.find(request.path_values.at("id"));
+    if (kept == nullptr || service.store.version() != kept->version) return std::nullopt;
+    return report_response(200, kept->body, kept->etag);
+}
 
 Answer get_html(Service& service, BodyCache& pages, const Request& request) {
     const ReportRecord record = done_record(service.store, request.path_values.at("id"));
@@ -147,13 +168,14 @@ std::vector<Route> report_routes(Service& service) {
         "Each event has the current state; a client that was away gets one event for all it missed. The stream ends "
         "with the event `done`, `failed` or `cancelled`.";
     events.headers = {{"Last-Event-ID", "the id of the last event that the client received"}};
-    return {
+    const auto reports = std::make_shared<BodyCache>(kept_reports_bytes);
+    Route report =
         route("GET", "", "getReport", "A report, even while it is queued or running",
               {{200, "The report", "application/json", "AnyReport", {"ETag"}}},
-              [&service](const Request& request) {
-                  const ReportRecord record = found_report(service, request);
-                  return report_response(200, record, queue_notes(service, record));
-              }),
+              [&service, reports](const Request& request) { return get_report(service, *reports, request); });
+    report.known = [&service, reports](const Request& request) { return known_report(service, *reports, request); };
+    return {
+        std::move(report),
         std::move(events),
         route("GET", "/report.html", "getReportPage", "A done report as one self-contained page",
               {{200, "The page", "text/html", "", {"ETag"}}, not_done},

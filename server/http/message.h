@@ -43,7 +43,8 @@ enum class Lane {
 struct Handling {
     std::optional<std::uint64_t> body_bytes;  ///< the longest body, or nothing for the general limit
     Lane lane = Lane::pool;
-    bool is_probe = false;  ///< answered even if there is no room for anything else
+    bool is_probe = false;      ///< answered even if there is no room for anything else
+    bool may_be_known = false;  ///< its answer may be in memory; then it is sent by the thread of the connections
 };
 
 struct Request {

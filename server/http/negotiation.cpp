@@ -69,6 +69,12 @@ std::string with_mark(std::string etag) {
     return etag;
 }
 
+/// Null if the body is sent as it is.
+std::string* text_to_compress(Response& response) {
+    auto* text = std::get_if<std::string>(&response.body);
+    return text == nullptr || text->empty() || !response.headers.contains("Content-Encoding") ? nullptr : text;
+}
+
 }  // namespace
 
 bool accepts(const std::optional<std::string>& accept, std::string_view media_type) {
@@ -124,10 +130,19 @@ void choose_coding(Response& response, const Request& request) {
 }
 
 Response encoded(Response response, const std::string& target, BodyCache& known) {
-    auto* text = std::get_if<std::string>(&response.body);
-    if (text == nullptr || text->empty() || !response.headers.contains("Content-Encoding")) return response;
+    auto* text = text_to_compress(response);
+    if (text == nullptr) return response;
     const auto etag = response.headers.find("ETag");
     *text = etag ? known.get(*etag + " " + target, [&] { return gzipped(*text); }) : gzipped(*text);
+    return response;
+}
+
+std::optional<Response> encoded_if_known(Response response, const std::string& target, BodyCache& known) {
+    auto* text = text_to_compress(response);
+    if (text == nullptr) return response;
+    const auto packed = known.find(response.headers.find("ETag").value_or("") + " " + target);
+    if (packed == nullptr) return std::nullopt;
+    *text = packed->body;
     return response;
 }
 

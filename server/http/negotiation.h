@@ -23,6 +23,8 @@ std::string gzipped(std::string_view text);
 void choose_coding(Response& response, const Request& request);
 /// With its body in the coding that was chosen. `known` keeps what has an ETag, by that and the target.
 Response encoded(Response response, const std::string& target, BodyCache& known);
+/// The same if that takes no compressing; otherwise nothing.
+std::optional<Response> encoded_if_known(Response response, const std::string& target, BodyCache& known);
 
 /// The request with the ETags of the original in place of those of compressed forms.
 Request without_coding(Request request);

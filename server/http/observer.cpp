@@ -12,7 +12,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <map>
+#include <mutex>
 #include <random>
+#include <tuple>
 
 namespace sheer::http {
 
@@ -83,6 +86,12 @@ void add_store(prometheus::Registry& registry, Store& store, std::int64_t now_ms
 }  // namespace
 
 struct Observer::Parts {
+    /// What is counted of one kind of answers.
+    struct Series {
+        prometheus::Counter& requests;
+        prometheus::Histogram& seconds;
+    };
+
     Store* store;
     ClockMs clock;
     prometheus::Registry registry;
@@ -94,6 +103,19 @@ struct Observer::Parts {
             .Help("Time until an answer is ready; requests that wait for a report are left out")
             .Register(registry);
     std::atomic<AccessLog> log = AccessLog::off;
+    std::mutex mutex;  ///< guards known_series
+    std::map<std::tuple<std::string, std::string, int>, Series, std::less<>> known_series;
+
+    /// Looked up here, since a registry makes new ones to look them up.
+    Series series(const std::string& route, const std::string& method, int status) {
+        const std::lock_guard lock(mutex);
+        const auto known = known_series.find(std::tie(route, method, status));
+        if (known != known_series.end()) return known->second;
+        const Series made{requests.Add({{"method", method}, {"route", route}, {"status", std::to_string(status)}}),
+                          seconds.Add({{"route", route}}, seconds_buckets)};
+        known_series.emplace(std::tuple(route, method, status), made);
+        return made;
+    }
     const std::shared_ptr<spdlog::logger> json_lines = json_logger();
 };
 
@@ -114,14 +136,15 @@ void Observer::log(AccessLog log) {
 void Observer::ended(const Observed& observed, Response& response) {
     response.headers.set("X-Request-Id", observed.id);
     const double seconds = std::chrono::duration<double>(Clock::now() - observed.begin).count();
-    const std::string status = std::to_string(response.status);
-    m_parts->requests.Add({{"method", observed.method}, {"route", observed.route}, {"status", status}}).Increment();
-    if (!observed.is_waiting) m_parts->seconds.Add({{"route", observed.route}}, seconds_buckets).Observe(seconds);
+    const Parts::Series series = m_parts->series(observed.route, observed.method, response.status);
+    series.requests.Increment();
+    if (!observed.is_waiting) series.seconds.Observe(seconds);
     switch (m_parts->log.load()) {
         case AccessLog::off:
             break;
         case AccessLog::text:
-            spdlog::info("{} {} {} {:.3f} s {}", observed.method, observed.target, status, seconds, observed.id);
+            spdlog::info("{} {} {} {:.3f} s {}", observed.method, observed.target, response.status, seconds,
+                         observed.id);
             break;
         case AccessLog::json_lines:
             m_parts->json_lines->info(json{
@@ -135,7 +158,7 @@ void Observer::ended(const Observed& observed, Response& response) {
     }
 }
 
-Answer Observer::answer(const Application& application, Request request) {
+Observer::Observed Observer::seen(const Application& application, const Request& request) {
     Observed observed{.id = request.headers.find("X-Request-Id").value_or(""),
                       .method = request.method,
                       .target = request.target,
@@ -143,6 +166,18 @@ Answer Observer::answer(const Application& application, Request request) {
     // Otherwise a client could make up any number of series.
     if (observed.route.empty()) observed.method = observed.route = "other";
     if (!is_request_id(observed.id)) observed.id = new_request_id();
+    return observed;
+}
+
+std::optional<Response> Observer::known(const Application& application, const Request& request) {
+    const Observed observed = seen(application, request);
+    std::optional<Response> response = application.known(request);
+    if (response) ended(observed, *response);
+    return response;
+}
+
+Answer Observer::answer(const Application& application, Request request) {
+    Observed observed = seen(application, request);
     Answer answer = application.answer(std::move(request));
     if (auto* response = std::get_if<Response>(&answer)) ended(observed, *response);
     if (auto* stream = std::get_if<EventStream>(&answer)) ended(observed, stream->head);

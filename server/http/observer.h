@@ -23,6 +23,8 @@ class Observer {
     /// The application's answer, with X-Request-Id: the request's, if it has 1 to 100 letters, digits and -_.:, or a
     /// new one.
     Answer answer(const Application& application, Request request);
+    /// The same if the application knows it.
+    std::optional<Response> known(const Application& application, const Request& request);
     /// Takes effect for the next request.
     void log(AccessLog log);
     /// In the text format of Prometheus. Throws StoreError.
@@ -31,6 +33,7 @@ class Observer {
   private:
     struct Parts;
     struct Observed;
+    static Observed seen(const Application& application, const Request& request);
     void ended(const Observed& observed, Response& response);
 
     std::unique_ptr<Parts> m_parts;

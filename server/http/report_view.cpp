@@ -159,11 +159,15 @@ std::string report_etag(const ReportRecord& record, const std::vector<Note>& not
     return fmt::format("\"{}-{}{}\"", record.id, record.revision, notes.empty() ? "" : "-noted");
 }
 
-Response report_response(int status, const ReportRecord& record, const std::vector<Note>& notes) {
-    Response response = text_response(status, report_text(record, notes), "application/json");
-    response.headers.add("ETag", report_etag(record, notes));
+Response report_response(int status, std::string text, std::string etag) {
+    Response response = text_response(status, std::move(text), "application/json");
+    response.headers.add("ETag", std::move(etag));
     response.headers.add("Cache-Control", "no-cache");
     return response;
+}
+
+Response report_response(int status, const ReportRecord& record, const std::vector<Note>& notes) {
+    return report_response(status, report_text(record, notes), report_etag(record, notes));
 }
 
 }  // namespace sheer::http

@@ -36,6 +36,8 @@ std::string event_name(Status status);
 nlohmann::json event_json(const ReportRecord& record);
 /// Changes whenever the text does.
 std::string report_etag(const ReportRecord& record, const std::vector<Note>& notes = {});
+/// The text of a report as a response.
+Response report_response(int status, std::string text, std::string etag);
 /// `report_text` as a response, with an ETag that changes whenever the text does.
 Response report_response(int status, const ReportRecord& record, const std::vector<Note>& notes = {});
 

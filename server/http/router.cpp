@@ -20,13 +20,12 @@ using Segments = std::vector<std::string>;
 /// The values of the {names}, or nothing if the path does not fit.
 std::optional<std::map<std::string, std::string>> fit(const Segments& pattern, const Segments& path) {
     if (pattern.size() != path.size()) return std::nullopt;
+    for (std::size_t i = 0; i < pattern.size(); ++i)
+        if (pattern[i].starts_with('{') ? path[i].empty() : path[i] != pattern[i]) return std::nullopt;
     std::map<std::string, std::string> values;
     for (std::size_t i = 0; i < pattern.size(); ++i) {
         if (pattern[i].starts_with('{')) {
-            if (path[i].empty()) return std::nullopt;
             values[pattern[i].substr(1, pattern[i].size() - 2)] = path[i];
-        } else if (path[i] != pattern[i]) {
-            return std::nullopt;
         }
     }
     return values;
@@ -57,7 +56,10 @@ Scope Route::needed_scope() const {
 }
 
 void Router::add(std::vector<Route> routes) {
-    std::ranges::move(routes, std::back_inserter(m_routes));
+    for (Route& route : routes) {
+        m_patterns.push_back(*path_segments(route.pattern));
+        m_routes.push_back(std::move(route));
+    }
 }
 
 Match Router::match(std::string_view method, std::string_view path) const {
@@ -65,8 +67,9 @@ Match Router::match(std::string_view method, std::string_view path) const {
     const auto segments = path_segments(path);
     if (!segments) return match;
     const std::string_view wanted = method == "HEAD" ? "GET" : method;
-    for (const Route& route : m_routes) {
-        auto values = fit(*path_segments(route.pattern), *segments);
+    for (std::size_t i = 0; i < m_routes.size(); ++i) {
+        const Route& route = m_routes[i];
+        auto values = fit(m_patterns[i], *segments);
         if (!values) continue;
         match.allowed.push_back(route.method);
         if (route.method == "GET") match.allowed.emplace_back("HEAD");
@@ -80,6 +83,7 @@ Match Router::match(std::string_view method, std::string_view path) const {
 
 json read_query(std::string_view query, const std::vector<Param>& fields, int wrong_status,
                 const std::vector<std::string>& repeatable) {
+    if (query.empty() && fields.empty()) return json::object();
     const auto pairs = query_pairs(query);
     if (!pairs) throw Problem(400, "The query has a malformed percent escape.");
     json values = json::object();

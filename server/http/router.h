@@ -44,6 +44,8 @@ struct Route {
     std::string body_schema;  ///< component that the JSON body must match; "" for no JSON body
     std::vector<Reply> replies;
     Handler handle;
+    /// The answer, if it is in memory and is what `handle` would answer now. Must not wait. Null: it never is.
+    std::function<std::optional<Response>(const Request&)> known = {};
     std::vector<std::string> body_types;  ///< media types of a body that is not JSON
     std::uint64_t body_bytes = 0;         ///< longest body; 0 for the service's general limit
     Lane lane = Lane::pool;
@@ -75,6 +77,7 @@ class Router {
 
   private:
     std::vector<Route> m_routes;
+    std::vector<std::vector<std::string>> m_patterns;  ///< the segments of each route's
 };
 
 /// Reads `query` as `fields` describe it; numbers are given as text. The fields in `repeatable` become arrays,

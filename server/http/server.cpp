@@ -75,6 +75,7 @@ class Server::Impl {
           m_changes(m_io, std::move(hooks.changes)),
           m_context{.limits = m_limits,
                     .answer = std::move(hooks.answer),
+                    .known = std::move(hooks.known),
                     .handling = std::move(hooks.handling),
                     .pool = m_pool,
                     .spec_pool = m_spec_pool,

@@ -36,6 +36,8 @@ class Server {
     struct Hooks {
         Answerer answer;
         HandlingOf handling;
+        /// The answer to a request that may be known, if it is; on the thread of the connections.
+        std::function<std::optional<Response>(const Request&)> known = [](const Request&) { return std::nullopt; };
         std::unique_ptr<ChangeWatch> changes;        ///< the store's
         std::function<void()> reload;                ///< on SIGHUP; on the thread of the connections
         std::function<void()> alive = {};            ///< every `alive_interval`, on the same thread

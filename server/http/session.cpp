@@ -143,6 +143,8 @@ class TcpSession : public Session {
     asio::awaitable<Answer> make_answer(Request request, const Handling& handling,
                                         const std::optional<SpooledBody>& spooled) {
         if (handling.lane == Lane::at_once && !spooled) co_return m_context.answer(std::move(request));
+        if (handling.may_be_known && !spooled)
+            if (auto known = m_context.known(request)) co_return std::move(*known);
         asio::thread_pool& pool = handling.lane == Lane::specs ? m_context.spec_pool : m_context.pool;
         co_return co_await on_pool(pool, [&] {
             try {
@@ -183,8 +185,12 @@ class TcpSession : public Session {
         parser.body_limit(boost::none);
         m_dispensable_from = SteadyClock::now() + slow_header;
         m_stream.expires_after(at_most(m_limits.header_timeout));
-        auto [error, count] = co_await bhttp::async_read_header(m_stream, m_buffer, parser, token);
-        co_return error;
+        // Most headers are there as a whole, and reading none costs as much as reading one.
+        beast::error_code error;
+        m_buffer.consume(parser.put(m_buffer.data(), error));
+        if (parser.is_header_done() || (error && error != bhttp::error::need_more)) co_return error;
+        auto [read_error, count] = co_await bhttp::async_read_header(m_stream, m_buffer, parser, token);
+        co_return read_error;
     }
 
     /// Throws std::system_error.

@@ -22,6 +22,7 @@ class Session;
 struct SessionContext {
     const Limits& limits;
     std::function<Answer(Request)> answer;  ///< called on the pool
+    std::function<std::optional<Response>(const Request&)> known;
     HandlingOf handling;
     boost::asio::thread_pool& pool;
     boost::asio::thread_pool& spec_pool;

@@ -10,6 +10,7 @@
 #include <boost/url/parse_path.hpp>
 #include <boost/url/parse_query.hpp>
 #include <boost/url/rfc/pchars.hpp>
+#include <boost/url/rfc/unreserved_chars.hpp>
 #include <charconv>
 
 #include "server/jobs/report_id.h"
@@ -41,6 +42,26 @@ std::string escaped(std::string_view text, const IsKept& is_kept) {
         }
     }
     return all;
+}
+
+/// Whether a path has neither escapes nor characters that need one, nor an empty segment within, nor a dot in front.
+bool is_plain_path(std::string_view path) {
+    constexpr auto plain = urls::unreserved_chars + urls::grammar::lut_chars('/');
+    return path.starts_with('/') && !path.starts_with("/.") && path.find("//") == path.npos &&
+           std::ranges::all_of(path, plain);
+}
+
+std::vector<std::string> plain_segments(std::string_view path) {
+    std::vector<std::string> segments;
+    if (path.size() == 1) return segments;
+    segments.reserve(8);
+    while (!path.empty()) {
+        path.remove_prefix(1);
+        const std::size_t end = std::min(path.find('/'), path.size());
+        segments.emplace_back(path.substr(0, end));
+        path.remove_prefix(end);
+    }
+    return segments;
 }
 
 std::string in_lower_case(std::string_view text) {
@@ -77,6 +98,7 @@ std::string with_escapes(std::string_view text) {
 }
 
 std::optional<std::vector<std::string>> path_segments(std::string_view path) {
+    if (is_plain_path(path)) return plain_segments(path);
     const std::string legal = with_escapes(path);
     const auto parsed = urls::parse_path(legal);
     if (!parsed || !parsed->is_absolute()) return std::nullopt;

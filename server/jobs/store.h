@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/jobs/activity.h"
@@ -36,6 +38,9 @@ class Store {
     virtual Workers& workers() = 0;
     virtual Usage& usage() = 0;
     virtual std::unique_ptr<ChangeWatch> watch() = 0;
+    /// Changes with each write by any process, before that is acknowledged. Nothing if the store has no such number, or
+    /// cannot read it at once.
+    virtual std::optional<std::int64_t> version() { return std::nullopt; }
     /// The same only for jobs that may be waiting for a worker now; null if workers have to ask the queue instead.
     virtual std::unique_ptr<ChangeWatch> watch_jobs() = 0;
     /// Copies the pictures and uploads whose SHA-256 `text` names to the data folder of this machine, if they are kept

@@ -4,7 +4,7 @@ import { createHash } from "node:crypto";
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assert_problem, lasting, QUICK, read_events, sleep, until, with_service } from "./service.mjs";
+import { assert_problem, lasting, QUICK, read_events, Service, sleep, until, with_service } from "./service.mjs";
 
 const sha256 = (bytes) => createHash("sha256").update(bytes).digest("hex");
 
@@ -226,4 +226,16 @@ test("the pictures of a report can be looked at while its times are measured", (
     assert.equal((await fetch(`${service.api}/reports/${id}/early/..%2Fearly.json`)).status, 404);
     await fetch(`${service.api}/reports/${id}`, { method: "DELETE" });
     await until(async () => (await early()).pictures.length === 0, "no pictures after the end");
+  }));
+
+test("a report that another process deletes is gone at once, however often it was read", () =>
+  with_service({}, async (service) => {
+    const id = await service.submit(QUICK);
+    await service.settled(id);
+    const other = await new Service({ workers: 0 }, service.folder).start();
+    const status = async () => (await fetch(`${service.api}/reports/${id}`)).status;
+    for (let i = 0; i < 20; ++i) assert.equal(await status(), 200);
+    assert.equal((await fetch(`${other.api}/reports/${id}`, { method: "DELETE" })).status, 204);
+    assert.equal(await status(), 404);
+    await other.stop();
   }));

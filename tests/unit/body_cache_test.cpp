@@ -52,6 +52,19 @@ TEST_F(BodyCacheTest, ABodyThatFillsItIsKeptAndALongerOneIsNot) {
     EXPECT_TRUE(makes("a", 40));
 }
 
+TEST_F(BodyCacheTest, WhatIsKeptReplacesWhatWasKnown) {
+    m_cache.keep("a", {std::string(60, 'a'), "\"1\"", 1});
+    m_cache.keep("a", {std::string(70, 'b'), "\"2\"", 2});
+    const BodyCache::KeptPtr kept = m_cache.find("a");
+    ASSERT_NE(kept, nullptr);
+    EXPECT_EQ(kept->body, std::string(70, 'b'));
+    EXPECT_EQ(kept->etag, "\"2\"");
+    EXPECT_EQ(kept->version, 2);
+    m_cache.keep("b", {std::string(30, 'b')});
+    EXPECT_NE(m_cache.find("a"), nullptr) << "the replaced one takes no room";
+    EXPECT_EQ(m_cache.find("c"), nullptr);
+}
+
 TEST_F(BodyCacheTest, AFailureIsNotKept) {
     EXPECT_THROW(m_cache.get("a", []() -> std::string { throw std::runtime_error("no"); }), std::runtime_error);
     EXPECT_TRUE(makes("a", 10));
