@@ -1,5 +1,6 @@
 #include "server/http/session.h"
 
+#include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
 
 #include <array>
@@ -35,6 +36,10 @@ constexpr std::chrono::seconds slow_header{1}, slow_body{10};
 // A new connection has not had time to send a request.
 constexpr std::chrono::milliseconds newcomer_time{250};
 constexpr std::string_view sign_of_life = ":\n\n";
+// What the kernel holds of an answer beyond what is on its way. By default that grows to megabytes: a client that asks
+// again and again without reading would have several long answers made and copied.
+constexpr int most_unsent_bytes = 128 << 10;
+using NotSent = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
 // For a probe's request on a connection beyond the limit.
 constexpr std::chrono::seconds spare_timeout{2};
 
@@ -67,6 +72,7 @@ class TcpSession : public Session {
         const tcp::endpoint client = m_stream.socket().remote_endpoint(ignored);
         if (!ignored) m_client = client.address().to_string();
         m_stream.socket().set_option(tcp::no_delay(true), ignored);
+        m_stream.socket().set_option(NotSent(most_unsent_bytes), ignored);
     }
 
     ~TcpSession() override {
