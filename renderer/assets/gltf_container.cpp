@@ -13,6 +13,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::size_t longest_reason = 200;
+
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
 constexpr std::size_t glb_header_bytes = 12, chunk_header_bytes = 8;
 /// The parser frees what it has read recursively.
@@ -91,10 +93,10 @@ json parse_json(std::string_view text) {
     try {
         return json::parse(text);
     } catch (const json::exception& error) {
-        // The library's message begins with the name of the exception in brackets.
-        const std::string message = error.what();
+        // The library's message begins with the name of the exception in brackets, and ends with bytes of the file.
+        const std::string_view message = error.what();
         throw AssetError("the file's JSON cannot be read: " +
-                         message.substr(std::min(message.find("] ") + 2, message.size())));
+                         printable(message.substr(std::min(message.find("] ") + 2, message.size())), longest_reason));
     }
 }
 
