@@ -5,15 +5,11 @@
 #include <boost/beast/core/string.hpp>
 
 #include "server/http/problem.h"
+#include "server/http/text.h"
 
 namespace sheer::http {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-    return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
-}
 
 /// The value of a cookie (RFC 6265, 4.2); "" if it is not sent.
 std::string cookie_in(const Request& request, std::string_view name) {
