@@ -25,7 +25,7 @@ struct FragmentCounts : ShadingCount {
     std::optional<PixelCounts> needed;  ///< fragments until the transmittance is under the method's threshold
     std::string no_needed_reason;
     std::optional<PixelCounts>
-        saturation;  ///< the fragment that saturated the pixel, from 1; of methods with a threshold
+        saturation;            ///< the fragment that saturated the pixel, from 1; of methods with a threshold
     std::optional<int> reads;  ///< of textures by each shaded fragment
 };
 

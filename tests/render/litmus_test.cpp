@@ -182,8 +182,7 @@ TEST(LitmusTable, HasEveryMethodOnEveryScene) {
 TEST(LitmusTable, IsWhatTheDocsSay) {
     const std::string path = source_folder() + std::string("/docs/litmus.md");
     const std::string page = litmus_page(litmus_scene_infos(), all_method_rows()) +
-                             early_exit_section(all_method_rows()) +
-                             pairs_section(compare_formulas(all_method_rows()));
+                             early_exit_section(all_method_rows()) + pairs_section(compare_formulas(all_method_rows()));
     if (std::getenv("SHEER_WRITE_DOCS") != nullptr) std::ofstream(path) << page;
     std::stringstream text;
     text << std::ifstream(path).rdbuf();

@@ -5,9 +5,9 @@
 
 #include <set>
 
+#include "renderer/methods/shared/method.h"
 #include "renderer/report/frontier.h"
 #include "renderer/report/statistics.h"
-#include "renderer/methods/shared/method.h"
 #include "renderer/report/suite.h"
 #include "renderer/results/quantity.h"
 #include "renderer/spec/spec.h"
