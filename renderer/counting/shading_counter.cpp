@@ -14,7 +14,7 @@ namespace {
 /// Drawing primitives separately costs two draws and their state for each.
 constexpr std::size_t most_single_draws = 100000;
 
-/// Comes after a method's source, whose main() count_shaded.glsl has renamed.
+/// Comes after a method's source, whose main() count_shaded.glsl renames where it counts warps.
 constexpr const char* own_main = "\n#undef main\nvoid main() { counted_main(); }\n";
 
 /// The program as its author wrote it: without comments and without the lines that only count.
@@ -150,13 +150,13 @@ const ShadingCounter::Variants& ShadingCounter::variants_of(const gl::Program& p
     variants.shader.discards = contains_any(source, {"discard"});
     variants.shader.writes_sample_mask = contains_any(source, {"gl_SampleMask["});
     variants.shader.fetches_framebuffer = contains_any(source, {"shader_framebuffer_fetch"});
-    const auto counting = [&](const std::string& layout) {
-        const std::string rest = program.fragment_source().substr(std::string_view(glsl_version).size());
-        return program.with_fragment_source(
-            "shaded fragments", glsl_version + ("#define SHEER_COUNT_SHADED " + layout + "\n") + rest + own_main);
-    };
-    variants.late = counting("");
-    if (variants.specified == Specified::nowhere) variants.early = counting("layout(early_fragment_tests) in;");
+    const std::string rest = program.fragment_source().substr(std::string_view(glsl_version).size());
+    variants.late = program.with_fragment_source("shaded fragments",
+                                                 glsl_version + std::string("#define SHEER_COUNT_SHADED\n") + rest);
+    const std::string layout = variants.specified == Specified::nowhere ? "layout(early_fragment_tests) in;" : "";
+    variants.early = program.with_fragment_source(
+        "shaded fragments and warps",
+        glsl_version + ("#define SHEER_COUNT_WARPS\n#define SHEER_COUNT_SHADED " + layout + "\n") + rest + own_main);
     return m_variants.emplace(program.id(), std::move(variants)).first->second;
 }
 
@@ -176,7 +176,6 @@ void ShadingCounter::test_early(std::size_t window) {
 void ShadingCounter::prepare(const gl::Program& original, const gl::Program& variant, const CountImage& image) const {
     variant.copy_uniforms(original);
     variant.set("u_shaded_scale", scale_to(m_gl, image));
-    WarpCounter::count_nothing_in(variant);
     image.bind();
 }
 
@@ -194,8 +193,8 @@ void ShadingCounter::draw_transparent(const gl::Program& program, Order order, s
 void ShadingCounter::gather(const gl::Program& program) {
     const Variants& variants = variants_of(program);
     Tally& tally = tally_of({Specified::nowhere, DrawKind()});
-    m_early ? prepare_early(program, variants.late, tally.early) : prepare(program, variants.late, tally.late);
-    m_scene.gather_unobserved(variants.late);
+    m_early ? prepare_early(program, variants.early, tally.early) : prepare(program, variants.late, tally.late);
+    m_scene.gather_unobserved(m_early ? variants.early : variants.late);
 }
 
 void ShadingCounter::draw_late(const gl::Program& program, Order order, std::size_t first, std::size_t count) {
@@ -212,8 +211,8 @@ void ShadingCounter::draw_early(const gl::Program& program, Order order, std::si
     if (variants.specified == Specified::late)
         tally.no_early_reason = "the shader writes depth or memory, so its fragments are not tested before it has run";
     if (variants.specified != Specified::nowhere) {
-        prepare_early(program, variants.late, m_counted);
-        return m_scene.draw_unobserved(variants.late, order, first, count);
+        prepare_early(program, variants.early, m_counted);
+        return m_scene.draw_unobserved(variants.early, order, first, count);
     }
     const bool cuts_late = may_be_cut(kind), draws_twice = cuts_late && (kind.writes_depth || kind.writes_stencil());
     if (cuts_late && query_runs(m_gl))

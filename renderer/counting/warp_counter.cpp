@@ -116,14 +116,10 @@ void WarpCounter::begin_draw(Order order, std::size_t first, std::size_t count) 
 }
 
 void WarpCounter::count_in(const gl::Program& program) const {
-    if (m_windows.empty()) return count_nothing_in(program);
+    if (m_windows.empty()) return program.set("u_warp_primitives", 0u);
     program.set("u_first_warp_primitive", static_cast<unsigned>(m_windows[m_window].first_primitive));
     program.set("u_warp_primitives", static_cast<unsigned>(m_windows[m_window].table.size() / table_words));
     m_gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, words_binding, m_words.id());
-}
-
-void WarpCounter::count_nothing_in(const gl::Program& program) {
-    program.set("u_warp_primitives", 0u);
 }
 
 void WarpCounter::flush() {

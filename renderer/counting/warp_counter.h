@@ -34,7 +34,6 @@ class WarpCounter {
     /// Before each draw that is counted: a primitive that has been drawn before begins new warps.
     void begin_draw(Order order, std::size_t first, std::size_t count);
     void count_in(const gl::Program& program) const;
-    static void count_nothing_in(const gl::Program& program);
 
     /// Waits for the device.
     WarpCounts read();

@@ -1,4 +1,4 @@
-// Counts what mark_in_warp of scenes/count_shaded.glsl has marked, and forgets it.
+// Counts what scenes/count_shaded.glsl has marked, and forgets it.
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 8) restrict buffer SheerWarps { uint sheer_warps[]; };
